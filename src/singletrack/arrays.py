@@ -49,9 +49,7 @@ def as_arrays(*values: Array) -> tuple[Any, tuple[Array, ...]]:
     xp = namespace(*values)
     arrays = (xp.asarray(value) for value in values)
     return xp, tuple(
-        array
-        if xp.isdtype(array.dtype, ("real floating", "complex floating"))
-        else xp.astype(array, xp.float64)
+        array if xp.isdtype(array.dtype, ("real floating", "complex floating")) else xp.astype(array, xp.float64)
         for array in arrays
     )
 
