@@ -13,6 +13,7 @@ from singletrack.errors import InputError, SingletrackError, unknown_name
 from singletrack.parameters.bicycle import Bicycle
 from singletrack.parameters.record import Record
 from singletrack.parameters.rider import Rider
+from singletrack.parameters.shapes import segment_shape
 from singletrack.parameters.units import parse_quantity
 
 if TYPE_CHECKING:
@@ -24,6 +25,7 @@ R = TypeVar("R", bound=Record)
 
 _LARGEST_FILE = 1_000_000
 _HEADER = ("kind", "name", "description", "source", "parameters")
+_TABLES = {"bicycle": ("extras",), "rider": ("segments",)}
 
 
 def shipped(kind: str) -> dict[str, Traversable]:
@@ -49,7 +51,8 @@ def load_bicycle(name_or_path: str | Path) -> Bicycle:
     Parameters
     ----------
     name_or_path : str or path
-        A shipped name (``benchmark``, ``stratos``, ``browser``) or a TOML file.
+        A shipped name (``benchmark``, ``stratos``, ``browser``) or a file: TOML, a parameter text file or raw
+        measurements of BicycleParameters, one of its YAML parameter sets.
 
     Raises
     ------
@@ -65,7 +68,9 @@ def load_bicycle(name_or_path: str | Path) -> Bicycle:
 
 
 def load_rider(name_or_path: str | Path) -> Rider:
-    """Load a rider: a shipped name (``rider-a``) or a TOML file; errors as in :func:`load_bicycle`.
+    """Load a rider: a shipped name (``rider-a``), a TOML file, or Yeadon's 95 measurements.
+
+    Errors as in :func:`load_bicycle`. Yeadon's measurements need the optional package ``yeadon``.
 
     Examples
     --------
@@ -86,7 +91,9 @@ def _load(cls: type[R], name_or_path: str | Path) -> R:
         exists = False
     if not exists:
         raise InputError(f"{unknown_name(cls.kind, str(name_or_path)[:200], known)}, and there is no such file")
-    return parse_record(cls, read_text(path), str(path))
+    from singletrack.parameters.formats.reading import read_record  # noqa: PLC0415  # lazy: seldom needed
+
+    return read_record(cls, read_text(path), str(path))
 
 
 def read_text(path: Path) -> str:
@@ -136,6 +143,7 @@ def parse_record(cls: type[R], text: str, where: str) -> R:
         raise InputError(f"{where}: is not valid TOML: {error or 'nested too deeply'}") from None
     header = _checked_header(cls, document, where, text)
     fields, deviations = _quantities(cls, header.pop("parameters"), where, text)
+    fields |= _tables(cls, document, where, text)
     missing = [name for name, p in cls.descriptions().items() if not p.optional and name not in fields]
     if missing:
         raise InputError(f"{where}: [parameters] lacks {', '.join(missing)}")
@@ -148,10 +156,11 @@ def parse_record(cls: type[R], text: str, where: str) -> R:
 def _checked_header(cls: type[R], document: dict[str, Any], where: str, text: str) -> dict[str, Any]:
     if not document:
         raise InputError(f"{where}: is empty; `singletrack template {cls.kind}` prints a file to fill in")
+    allowed = (*_HEADER, *_TABLES.get(cls.kind, ()))
     for name in document:
-        if name not in _HEADER:
+        if name not in allowed:
             place = "; parameters go under [parameters]" if name in cls.descriptions() else ""
-            raise InputError(f"{_place(where, text, name)}: {unknown_name('entry', name, _HEADER)}{place}")
+            raise InputError(f"{_place(where, text, name)}: {unknown_name('entry', name, allowed)}{place}")
     if document.get("kind", cls.kind) != cls.kind:
         raise InputError(f"{_place(where, text, 'kind')}: is a {document['kind']!r} file, must be a {cls.kind}")
     if not isinstance(document.get("parameters"), dict):
@@ -179,8 +188,13 @@ def _quantities(
             raise InputError(f"{place}: {unknown_name(f'{cls.kind} parameter', name, descriptions)}")
         try:
             if cls is Rider and name == "forward_lean_angle" and isinstance(found, dict):
-                angles = {bicycle: parse_quantity(angle, "rad").value for bicycle, angle in found.items()}
-                fields["forward_lean_angles"] = angles
+                angles = {bicycle: parse_quantity(angle, "rad") for bicycle, angle in found.items()}
+                fields["forward_lean_angles"] = {bicycle: angle.value for bicycle, angle in angles.items()}
+                deviations |= {
+                    f"forward_lean_angle on {bicycle}": angle.deviation
+                    for bicycle, angle in angles.items()
+                    if angle.deviation is not None
+                }
                 continue
             quantity = parse_quantity(found, descriptions[name].unit)
         except InputError as error:
@@ -189,6 +203,23 @@ def _quantities(
         if quantity.deviation is not None:
             deviations[name] = quantity.deviation
     return fields, deviations
+
+
+def _tables(cls: type[R], document: dict[str, Any], where: str, text: str) -> dict[str, Any]:
+    """Return what the tables besides [parameters] hold: a rider's segment shapes, numbers kept from other formats."""
+    fields: dict[str, Any] = {}
+    for table in _TABLES.get(cls.kind, ()):
+        found = document.get(table, {})
+        if not isinstance(found, dict):
+            raise InputError(f"{_place(where, text, table)}: {table} must be a table [{table}]")
+        try:
+            if table == "segments":
+                fields["shapes"] = {name: segment_shape(name, values) for name, values in found.items()}
+            else:
+                fields[table] = {name: parse_quantity(value, "").value for name, value in found.items()}
+        except InputError as error:
+            raise InputError(f"{_place(where, text, table)}: {error}") from None
+    return fields
 
 
 def _place(where: str, text: str, name: str) -> str:

@@ -82,6 +82,9 @@ class Record:
         Where the numbers come from.
     standard_deviations : mapping of str to float
         Measurement uncertainty of parameters, SI, where known.
+    extras : mapping of str to float
+        Numbers of a file in another format that are no parameters (such as the speed of a parameter set), kept so
+        that they can be written back.
     """
 
     kind: ClassVar[str] = "record"
@@ -90,6 +93,7 @@ class Record:
     description: str = ""
     source: str = ""
     standard_deviations: Mapping[str, Array] = field(default_factory=dict)
+    extras: Mapping[str, float] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         refuse_single(self.faults(), where=self.name)
