@@ -180,9 +180,13 @@ def _two_link_joint(
     dx, dz = end[..., 0] - start[..., 0], end[..., 2] - start[..., 2]
     distance = xp.sqrt(dx**2 + dz**2)
     cosine = (distance**2 + first**2 - second**2) / (2 * distance * first)
-    outside = xp.abs(cosine) > 1 if is_concrete(cosine) else False
-    angle = xp.atan2(dx, dz) + bend * xp.acos(xp.where(outside, xp.nan, cosine))
-    joint = start + vector(first * xp.sin(angle), 0.0, first * xp.cos(angle))
+    outside = xp.abs(xp.real(cosine)) > 1 if is_concrete(cosine) else False
+    cosine = xp.where(outside, xp.nan, cosine)
+    # The link is the direction to the end, turned by acos(cosine): without inverse functions, so that complex steps
+    # (exact derivatives) pass through.
+    sine = bend * xp.sqrt(1 - cosine**2)
+    along, up = first * (dx * cosine + dz * sine) / distance, first * (dz * cosine - dx * sine) / distance
+    joint = start + vector(along, 0.0, up)
     ends, lengths = _LIMBS[limb]
     found = {"distance": distance, "reach": first + second, "least": abs(first - second)}
     text = f"the {ends} distance is {{distance:.4f}} m, but the {limb} ({lengths}) "
