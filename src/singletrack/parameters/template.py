@@ -21,24 +21,23 @@ __all__ = ["KINDS", "template"]
 KINDS = ("bicycle", "rider", "measurements")
 
 _BICYCLE_SKETCH = r"""
-                            stem top o--o  grip        stem_length: along the steer axis
-             saddle  ___        \   /                  handlebar_length: grip behind the stem top,
-                      |          \                     horizontally (negative: in front of it)
-    seat_post_length  |           \ <- steer axis, leaning back from the vertical by steer_axis_tilt
-                      o------------o
-                      \           /|\
-    seat_tube_length   \        /  | \ fork_length: front hub to crown, straight
-                        \     /   _|_ \
-          ___            \  /   /    \ \
-        /     \  chain    \/   |      o |  front hub      wheels: radius from the hub to the ground,
-       |   o---|---stay--o     |        |                 under load: distance rolled in n turns / (2 pi n)
-    ____\_____/_____|____________\____/___\_____  ground
-            |       |               |     |
-            |       bottom_bracket_ |     +-- steer axis meets the ground
-            |       height          |<--->|  trail: contact behind that point
-            |<------ wheel_base --->|
-    x points forward, z points down, from the rear contact: heights of centres of mass are negative.
-    seat_tube_angle is measured from the ground (some 70 deg), steer_axis_tilt from the vertical (some 18 deg).
+               saddle           g-----s
+                ---                    \
+                  \                     \        s-g  handlebar_length, horizontally; g is the grip,
+                   t---------------------h            positive where g is behind s, negative in front
+                    \                  /  \     h-s  stem_length, along the steer axis; h is level with t
+                     \              /      c    c-f  fork_length, straight; c is the crown, on the steer axis
+        .-----.       \          /    .----\.   b-t  seat_tube_length, leaning by seat_tube_angle from the ground
+      /         \      \      /     /       \ \  t-saddle  seat_post_length, along the same line
+     |     r-----------------b      |    f   \ | r-b  chain_stay_length
+      \     |   /           |        \   |    /\ b-ground  bottom_bracket_height
+    ____`-----'_____________|__________`-----'___\_____ ground
+           |                           |          |
+           |<------- wheel_base ------>|<-trail-->|   the steer axis meets the ground ahead of the contact
+
+    Wheel radius: hub to ground, under load (distance rolled in n turns / (2 pi n)).
+    x points forward and z points down, from the rear contact: heights of centres of mass are negative.
+    seat_tube_angle is from the ground (some 70 deg), steer_axis_tilt from the vertical (some 18 deg).
 """
 
 _RIDER_SKETCH = r"""

@@ -1,0 +1,409 @@
+"""The commands that concern files: template, show, convert, measure, period, schema. Plain functions that print."""
+
+from __future__ import annotations
+
+import json
+import math
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from singletrack.errors import InputError, PostureError, SingletrackError, unknown_name
+
+if TYPE_CHECKING:
+    from rich.console import Console
+
+    from singletrack.parameters import Bicycle, Rider
+    from singletrack.parameters.measure import Measurement
+    from singletrack.parameters.record import Record
+
+__all__ = ["convert", "measure", "period", "schema", "show", "template"]
+
+_SUFFIXES = {".toml": "toml", ".txt": "text", ".yml": "yaml", ".yaml": "yaml"}
+
+
+def _console() -> Console:
+    from rich.console import Console  # noqa: PLC0415
+
+    return Console(highlight=False, soft_wrap=False)
+
+
+def _deliver(text: str, output: str | Path | None) -> None:
+    """Write a file whole, or print."""
+    from singletrack.parameters.output import write_whole  # noqa: PLC0415
+
+    if output is None:
+        print(text, end="" if text.endswith("\n") else "\n")  # noqa: T201  # plain text, to be piped into a file
+    else:
+        _console().print(f"wrote {write_whole(output, text)}", markup=False, soft_wrap=True)
+
+
+def template(kind: str, output: str | Path | None = None) -> None:
+    """Print (or write) a commented file to fill in.
+
+    Parameters
+    ----------
+    kind : {"bicycle", "rider", "measurements"}
+    output : path, optional
+        Where to write it; printed without.
+
+    Raises
+    ------
+    InputError
+        For an unknown kind, or an output that cannot be written.
+    """
+    from singletrack.parameters.template import template as text  # noqa: PLC0415
+
+    _deliver(text(kind), output)
+
+
+def schema(kind: str, output: str | Path | None = None) -> None:
+    """Print (or write) the JSON schema of a bicycle's or a rider's TOML file (arguments as :func:`template`)."""
+    from singletrack.parameters.schema import schema as make  # noqa: PLC0415
+
+    _deliver(json.dumps(make(kind), indent=2, ensure_ascii=False) + "\n", output)
+
+
+def _load_any(name_or_path: str | Path, configuration: str | Path | None = None) -> Bicycle | Rider:
+    """Load whichever of a bicycle and a rider it is."""
+    from singletrack.parameters import Rider, load_bicycle, load_rider, shipped  # noqa: PLC0415
+    from singletrack.parameters.files import read_text  # noqa: PLC0415
+    from singletrack.parameters.formats.reading import format_of  # noqa: PLC0415
+
+    name = str(name_or_path)
+    if configuration is not None:
+        from singletrack.parameters.formats.yeadon import read_configuration, read_yeadon  # noqa: PLC0415
+
+        lean = read_configuration(read_text(Path(configuration)), str(configuration))
+        return read_yeadon(read_text(Path(name)), name, lean)
+    if name in shipped("rider"):
+        return load_rider(name)
+    path = Path(name)
+    if name not in shipped("bicycle"):
+        try:
+            exists = path.exists()
+        except (OSError, ValueError):
+            exists = False
+        if not exists:
+            known = [*shipped("bicycle"), *shipped("rider")]
+            raise InputError(f"{unknown_name('bicycle or rider', name[:200], known)}, and there is no such file")
+        text = read_text(path)
+        found = format_of(text, name)
+        if found == "yeadon" or (found == "toml" and _says_rider(text)):
+            return load_rider(name)
+    record = load_bicycle(name)
+    return record if not isinstance(record, Rider) else record
+
+
+def _says_rider(text: str) -> bool:
+    import re  # noqa: PLC0415
+
+    kind = re.search(r"^\s*kind\s*=\s*[\"'](\w*)", text, re.MULTILINE)
+    if kind:
+        return kind[1] == "rider"
+    return bool(re.search(r"^\s*(rider_mass|torso_length|chest_circumference)\s*=", text, re.MULTILINE))
+
+
+def show(
+    name_or_path: str,
+    rider: str | None = None,
+    posture: str = "rigid",
+    shoulder: str | None = None,
+    drawing: bool = True,
+) -> None:
+    """Print everything that follows from a bicycle or a rider, with a drawing.
+
+    Parameters
+    ----------
+    name_or_path : str
+        A shipped bicycle or rider, or a file in any format.
+    rider : str, optional
+        Rider to seat on the bicycle: a shipped name or a file.
+    posture, shoulder
+        As for :func:`singletrack.coefficients`; used with a rider.
+    drawing : bool
+        Whether to draw the bicycle.
+
+    Raises
+    ------
+    SingletrackError
+        If there is no such thing or it cannot be used.
+    """
+    from singletrack.parameters import Rider, load_rider  # noqa: PLC0415
+
+    record = _load_any(name_or_path)
+    console = _console()
+    if isinstance(record, Rider):
+        if rider is not None:
+            raise InputError(f"{name_or_path}: is a rider, must be a bicycle to seat {rider} on")
+        _show_record(console, record)
+        _show_oddities(console, record, None)
+        return
+    person = None if rider is None else load_rider(rider).on(record)
+    if drawing:
+        from singletrack.present.sketch import side_view  # noqa: PLC0415
+
+        console.print(side_view(record, person), markup=False)
+        console.print("centres of mass: R rear wheel, B rear frame, H front frame, F front wheel\n", style="dim")
+    _show_record(console, record)
+    if person is not None:
+        _show_record(console, person)
+    _show_results(console, record, person, posture, shoulder)
+    _show_oddities(console, record, person)
+
+
+def _show_record(console: Console, record: Bicycle | Rider) -> None:
+    from rich.table import Table  # noqa: PLC0415
+    from rich.text import Text  # noqa: PLC0415
+
+    from singletrack.present.records import derived, parameter_rows  # noqa: PLC0415
+
+    console.print(Text(f"{record.kind} {record.name}".rstrip(), style="bold"))
+    for line in (record.description, f"source: {record.source}" if record.source else ""):
+        if line:
+            console.print(line, markup=False)
+    table = Table(show_header=False, box=None, pad_edge=False)
+    group = None
+    for row in (*parameter_rows(record), *derived(record)):
+        if row.group != group:
+            group = row.group
+            table.add_row(Text(f"\n{group}", style="bold"))
+        table.add_row(f"  {row.name}", row.value, row.deviation, Text(row.meaning, style="dim"))
+    console.print(table)
+    console.print()
+
+
+def _show_results(console: Console, bicycle: Bicycle, rider: Rider | None, posture: str, shoulder: str | None) -> None:
+    from rich.text import Text  # noqa: PLC0415
+
+    from singletrack.present.records import uncertain_results  # noqa: PLC0415
+
+    found = uncertain_results(bicycle, rider, posture if rider is not None else "rigid", shoulder)
+    who = f" with {rider.name or 'rider'}, {posture}" if rider is not None else ""
+    console.print(Text(f"linear equations{who}", style="bold"))
+    for name, matrix in found["matrices"].items():
+        for i, row in enumerate(matrix):
+            console.print(f"  {name if i == 0 else '':5}[{row[0]:12.6f} {row[1]:12.6f} ]", markup=False)
+    for kind in ("weave", "capsize"):
+        speeds = [f"{v:.4f}" + ("" if s is None else f" ± {s:.2g}") + " m/s" for v, s in found[kind]]
+        console.print(f"  {kind} speed: {', '.join(speeds) or 'never'}", markup=False)
+    ranges = [f"{low:.4f} to {high:.4f} m/s" for low, high in found["stable_ranges"]]
+    console.print(f"  stable: {', '.join(ranges) or 'never'}", markup=False)
+
+
+def _show_oddities(console: Console, record: Record, rider: Rider | None) -> None:
+    from singletrack.parameters import Bicycle  # noqa: PLC0415
+    from singletrack.parameters.plausibility import oddities  # noqa: PLC0415
+
+    found = list(oddities(record, rider))
+    if rider is not None and isinstance(record, Bicycle):
+        from singletrack.body.reach import seat_oddities  # noqa: PLC0415
+
+        try:
+            found += seat_oddities(record, rider)
+        except PostureError as error:
+            console.print(f"warning: {error}", style="yellow", markup=False)
+    for oddity in found:
+        console.print(f"warning: {oddity}", style="yellow", markup=False, soft_wrap=True)
+
+
+def convert(
+    source: str,
+    output: str | Path,
+    parameterization: str = "benchmark",
+    configuration: str | Path | None = None,
+) -> None:
+    """Read a bicycle or a rider in any format and write it in the format of the output's suffix.
+
+    Parameters
+    ----------
+    source : str
+        A shipped name or a file.
+    output : path
+        ``.toml``: our own; ``.txt``: parameter text; ``.yml``, ``.yaml``: parameter set. Riders: ``.toml`` only.
+    parameterization : {"benchmark", "principal"}
+        Of a parameter set.
+    configuration : path, optional
+        Configuration of Yeadon's human, for the forward lean angle of a rider read from 95 measurements.
+
+    Raises
+    ------
+    InputError
+        If the source cannot be read, the suffix is unknown, the format cannot hold the record, or the output is the
+        source itself or cannot be written; nothing is written then.
+    """
+    from singletrack.parameters import Bicycle  # noqa: PLC0415
+    from singletrack.parameters.formats.parameter_sets import write_parameter_set  # noqa: PLC0415
+    from singletrack.parameters.formats.text import write_bicycle_text  # noqa: PLC0415
+    from singletrack.parameters.formats.toml import write_toml  # noqa: PLC0415
+
+    target = Path(output)
+    kind = _SUFFIXES.get(target.suffix.lower())
+    if kind is None:
+        raise InputError(f"{output}: unknown suffix {target.suffix!r}, must be one of {', '.join(_SUFFIXES)}")
+    if target.exists() and Path(source).exists() and target.samefile(source):
+        raise InputError(f"{output}: is the file to read, must be another one")
+    record = _load_any(source, configuration)
+    if kind == "toml":
+        text = write_toml(record)
+    elif not isinstance(record, Bicycle):
+        raise InputError(f"{output}: the format holds no rider, must be .toml")
+    elif kind == "text":
+        text = write_bicycle_text(record)
+    else:
+        text = write_parameter_set(record, parameterization)
+    _deliver(text, output)
+    console = _console()
+    _show_oddities(console, record, None)
+    if kind == "yaml" and isinstance(record, Bicycle):
+        _note_losses(console, record)
+
+
+def _note_losses(console: Console, record: Bicycle) -> None:
+    """Say what a parameter set does not hold."""
+    lost = [name for name in record.values() if name not in _model_names()]
+    if record.standard_deviations:
+        console.print("note: a parameter set holds no standard deviations; they stand in its comments", markup=False)
+    if lost:
+        console.print(f"note: a parameter set holds no {', '.join(lost)}", markup=False, soft_wrap=True)
+
+
+def _model_names() -> list[str]:
+    from singletrack.parameters.symbols import MODEL_SYMBOLS, NAMES  # noqa: PLC0415
+
+    return [NAMES[symbol] for symbol in MODEL_SYMBOLS]
+
+
+def measure(
+    path: str | Path,
+    compare: str | None = None,
+    output: str | Path | None = None,
+    centre_fit: str = "perpendicular",
+) -> None:
+    """Turn raw measurements into the 25 parameters with uncertainties, and print them.
+
+    Parameters
+    ----------
+    path : path
+        A file of raw measurements (`singletrack template measurements`).
+    compare : str, optional
+        A bicycle to compare with: a shipped name or a file. By default the shipped bicycle of the same name, if any;
+        ``"none"`` for none.
+    output : path, optional
+        Where to write the bicycle (``.toml``, ``.txt``, ``.yml``).
+    centre_fit : {"perpendicular", "vertical", "intersections"}
+        How centres of mass follow from the plumb lines.
+
+    Raises
+    ------
+    InputError
+        Names file, line, measurement, what was found and what is allowed.
+    """
+    from singletrack.parameters import load_bicycle, shipped  # noqa: PLC0415
+    from singletrack.parameters.files import read_text  # noqa: PLC0415
+    from singletrack.parameters.measure import measure as make  # noqa: PLC0415
+
+    if not Path(path).exists():
+        raise InputError(f"{path}: there is no such file")
+    found = make(read_text(Path(path)), str(path), centre_fit)
+    name = found.bicycle.name if compare is None and found.bicycle.name in shipped("bicycle") else compare
+    other = None if name in {None, "none"} else load_bicycle(str(name))
+    console = _console()
+    _show_measured(console, found, other)
+    _show_speeds(console, found)
+    _show_oddities(console, found.bicycle, None)
+    if output is not None:
+        _write_bicycle(found.bicycle, output)
+
+
+def _write_bicycle(bicycle: Bicycle, output: str | Path) -> None:
+    from singletrack.parameters.formats.parameter_sets import write_parameter_set  # noqa: PLC0415
+    from singletrack.parameters.formats.text import write_bicycle_text  # noqa: PLC0415
+    from singletrack.parameters.formats.toml import write_toml  # noqa: PLC0415
+
+    writers: dict[str, Any] = {"toml": write_toml, "text": write_bicycle_text, "yaml": write_parameter_set}
+    kind = _SUFFIXES.get(Path(output).suffix.lower())
+    if kind is None:
+        raise InputError(f"{output}: unknown suffix {Path(output).suffix!r}, must be one of {', '.join(_SUFFIXES)}")
+    _deliver(writers[kind](bicycle), output)
+
+
+def _show_measured(console: Console, found: Measurement, other: Bicycle | None) -> None:
+    from rich.table import Table  # noqa: PLC0415
+
+    from singletrack.parameters.comparison import compare_measured  # noqa: PLC0415
+    from singletrack.present.records import parameter_rows  # noqa: PLC0415
+
+    table = Table(box=None, pad_edge=False)
+    for heading in ("parameter", "measured", "standard deviation"):
+        table.add_column(heading)
+    agreements = {} if other is None else {a.name: a for a in compare_measured(found.bicycle, other)}
+    if other is not None:
+        for heading in (other.name or "other", "difference / deviation", "agrees"):
+            table.add_column(heading)
+    for row in parameter_rows(found.bicycle):
+        cells = [row.name, row.value, row.deviation]
+        agreement = agreements.get(row.name)
+        if agreement is not None:
+            unit = row.value.split(" ", 1)[-1]
+            factor = 180 / math.pi if unit == "deg" else 1.0
+            verdict = "yes" if agreement.agrees else "no"
+            cells += [f"{factor * agreement.other:.6g} {unit}", f"{agreement.ratio:+.2f}", agreement.reason or verdict]
+        table.add_row(*cells)
+    console.print(table)
+
+
+def _show_speeds(console: Console, found: Measurement) -> None:
+    from singletrack.analysis.uncertainty import linear_uncertainty  # noqa: PLC0415
+
+    try:
+        speeds = linear_uncertainty(found.bicycle, covariance=(found.names, found.covariance)).critical_speeds()
+    except SingletrackError as error:
+        console.print(f"no uncertainty of the critical speeds: {error}", markup=False)
+        return
+    for kind in ("weave", "capsize"):
+        pairs = zip(getattr(speeds, kind), getattr(speeds, f"{kind}_deviation"), strict=True)
+        console.print(f"{kind} speed: " + (", ".join(f"{v:.4f} ± {s:.2g} m/s" for v, s in pairs) or "never"), markup=False)
+
+
+def period(path: str | Path, plot: str | Path | None = None) -> None:
+    """Fit a decaying oscillation to a recorded signal and print its period with its standard deviation.
+
+    Parameters
+    ----------
+    path : path
+        Two columns: time in s, signal (a rate, an angle, a voltage).
+    plot : path, optional
+        Where to write the figure (``.png``, ``.svg`` or ``.pdf``).
+
+    Raises
+    ------
+    InputError
+        Names file, line, what was found and what is allowed.
+    """
+    from singletrack.parameters.files import read_text  # noqa: PLC0415
+    from singletrack.parameters.oscillation import fit_oscillation, read_signal  # noqa: PLC0415
+
+    if not Path(path).exists():
+        raise InputError(f"{path}: there is no such file")
+    fit = fit_oscillation(*read_signal(read_text(Path(path)), str(path)), str(path))
+    console = _console()
+    console.print(f"period: {fit.period:.9g} ± {fit.period_deviation:.2g} s", markup=False)
+    console.print(f"without damping: {fit.natural_period:.9g} s", markup=False)
+    console.print(f"decay: {fit.decay:.4g} ± {fit.decay_deviation:.2g} 1/s", markup=False)
+    console.print(f"for the measurements' file: {fit.natural_period!r}+/-{fit.period_deviation!r}", markup=False)
+    if plot is not None:
+        _save_plot(fit, Path(path).stem, Path(plot))
+
+
+def _save_plot(fit: Any, title: str, plot: Path) -> None:
+    import io  # noqa: PLC0415
+
+    from singletrack.parameters.output import write_whole  # noqa: PLC0415
+    from singletrack.present.oscillation import oscillation_figure  # noqa: PLC0415
+
+    suffix = plot.suffix.lower().removeprefix(".")
+    if suffix not in {"png", "svg", "pdf"}:
+        raise InputError(f"{plot}: unknown suffix {plot.suffix!r}, must be one of .png, .svg, .pdf")
+    content = io.BytesIO()
+    oscillation_figure(fit, title).savefig(content, format=suffix)
+    _console().print(f"wrote {write_whole(plot, content.getvalue())}", markup=False, soft_wrap=True)
