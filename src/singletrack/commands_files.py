@@ -22,14 +22,14 @@ _SUFFIXES = {".toml": "toml", ".txt": "text", ".yml": "yaml", ".yaml": "yaml"}
 
 
 def _console() -> Console:
-    from rich.console import Console  # noqa: PLC0415
+    from rich.console import Console
 
     return Console(highlight=False, soft_wrap=False)
 
 
 def _deliver(text: str, output: str | Path | None) -> None:
     """Write a file whole, or print."""
-    from singletrack.parameters.output import write_whole  # noqa: PLC0415
+    from singletrack.parameters.output import write_whole
 
     if output is None:
         print(text, end="" if text.endswith("\n") else "\n")  # noqa: T201  # plain text, to be piped into a file
@@ -51,27 +51,27 @@ def template(kind: str, output: str | Path | None = None) -> None:
     InputError
         For an unknown kind, or an output that cannot be written.
     """
-    from singletrack.parameters.template import template as text  # noqa: PLC0415
+    from singletrack.parameters.template import template as text
 
     _deliver(text(kind), output)
 
 
 def schema(kind: str, output: str | Path | None = None) -> None:
     """Print (or write) the JSON schema of a bicycle's or a rider's TOML file (arguments as :func:`template`)."""
-    from singletrack.parameters.schema import schema as make  # noqa: PLC0415
+    from singletrack.parameters.schema import schema as make
 
     _deliver(json.dumps(make(kind), indent=2, ensure_ascii=False) + "\n", output)
 
 
 def _load_any(name_or_path: str | Path, configuration: str | Path | None = None) -> Bicycle | Rider:
     """Load whichever of a bicycle and a rider it is."""
-    from singletrack.parameters import Rider, load_bicycle, load_rider, shipped  # noqa: PLC0415
-    from singletrack.parameters.files import read_text  # noqa: PLC0415
-    from singletrack.parameters.formats.reading import format_of  # noqa: PLC0415
+    from singletrack.parameters import load_bicycle, load_rider, shipped
+    from singletrack.parameters.files import read_text
+    from singletrack.parameters.formats.reading import format_of
 
     name = str(name_or_path)
     if configuration is not None:
-        from singletrack.parameters.formats.yeadon import read_configuration, read_yeadon  # noqa: PLC0415
+        from singletrack.parameters.formats.yeadon import read_configuration, read_yeadon
 
         lean = read_configuration(read_text(Path(configuration)), str(configuration))
         return read_yeadon(read_text(Path(name)), name, lean)
@@ -90,12 +90,11 @@ def _load_any(name_or_path: str | Path, configuration: str | Path | None = None)
         found = format_of(text, name)
         if found == "yeadon" or (found == "toml" and _says_rider(text)):
             return load_rider(name)
-    record = load_bicycle(name)
-    return record if not isinstance(record, Rider) else record
+    return load_bicycle(name)
 
 
 def _says_rider(text: str) -> bool:
-    import re  # noqa: PLC0415
+    import re
 
     kind = re.search(r"^\s*kind\s*=\s*[\"'](\w*)", text, re.MULTILINE)
     if kind:
@@ -128,7 +127,7 @@ def show(
     SingletrackError
         If there is no such thing or it cannot be used.
     """
-    from singletrack.parameters import Rider, load_rider  # noqa: PLC0415
+    from singletrack.parameters import Rider, load_rider
 
     record = _load_any(name_or_path)
     console = _console()
@@ -140,7 +139,7 @@ def show(
         return
     person = None if rider is None else load_rider(rider).on(record)
     if drawing:
-        from singletrack.present.sketch import side_view  # noqa: PLC0415
+        from singletrack.present.sketch import side_view
 
         console.print(side_view(record, person), markup=False)
         console.print("centres of mass: R rear wheel, B rear frame, H front frame, F front wheel\n", style="dim")
@@ -152,10 +151,10 @@ def show(
 
 
 def _show_record(console: Console, record: Bicycle | Rider) -> None:
-    from rich.table import Table  # noqa: PLC0415
-    from rich.text import Text  # noqa: PLC0415
+    from rich.table import Table
+    from rich.text import Text
 
-    from singletrack.present.records import derived, parameter_rows  # noqa: PLC0415
+    from singletrack.present.records import derived, parameter_rows
 
     console.print(Text(f"{record.kind} {record.name}".rstrip(), style="bold"))
     for line in (record.description, f"source: {record.source}" if record.source else ""):
@@ -173,9 +172,9 @@ def _show_record(console: Console, record: Bicycle | Rider) -> None:
 
 
 def _show_results(console: Console, bicycle: Bicycle, rider: Rider | None, posture: str, shoulder: str | None) -> None:
-    from rich.text import Text  # noqa: PLC0415
+    from rich.text import Text
 
-    from singletrack.present.records import uncertain_results  # noqa: PLC0415
+    from singletrack.present.records import uncertain_results
 
     found = uncertain_results(bicycle, rider, posture if rider is not None else "rigid", shoulder)
     who = f" with {rider.name or 'rider'}, {posture}" if rider is not None else ""
@@ -191,12 +190,12 @@ def _show_results(console: Console, bicycle: Bicycle, rider: Rider | None, postu
 
 
 def _show_oddities(console: Console, record: Record, rider: Rider | None) -> None:
-    from singletrack.parameters import Bicycle  # noqa: PLC0415
-    from singletrack.parameters.plausibility import oddities  # noqa: PLC0415
+    from singletrack.parameters import Bicycle
+    from singletrack.parameters.plausibility import oddities
 
     found = list(oddities(record, rider))
     if rider is not None and isinstance(record, Bicycle):
-        from singletrack.body.reach import seat_oddities  # noqa: PLC0415
+        from singletrack.body.reach import seat_oddities
 
         try:
             found += seat_oddities(record, rider)
@@ -231,10 +230,10 @@ def convert(
         If the source cannot be read, the suffix is unknown, the format cannot hold the record, or the output is the
         source itself or cannot be written; nothing is written then.
     """
-    from singletrack.parameters import Bicycle  # noqa: PLC0415
-    from singletrack.parameters.formats.parameter_sets import write_parameter_set  # noqa: PLC0415
-    from singletrack.parameters.formats.text import write_bicycle_text  # noqa: PLC0415
-    from singletrack.parameters.formats.toml import write_toml  # noqa: PLC0415
+    from singletrack.parameters import Bicycle
+    from singletrack.parameters.formats.parameter_sets import write_parameter_set
+    from singletrack.parameters.formats.text import write_bicycle_text
+    from singletrack.parameters.formats.toml import write_toml
 
     target = Path(output)
     kind = _SUFFIXES.get(target.suffix.lower())
@@ -268,7 +267,7 @@ def _note_losses(console: Console, record: Bicycle) -> None:
 
 
 def _model_names() -> list[str]:
-    from singletrack.parameters.symbols import MODEL_SYMBOLS, NAMES  # noqa: PLC0415
+    from singletrack.parameters.symbols import MODEL_SYMBOLS, NAMES
 
     return [NAMES[symbol] for symbol in MODEL_SYMBOLS]
 
@@ -298,9 +297,9 @@ def measure(
     InputError
         Names file, line, measurement, what was found and what is allowed.
     """
-    from singletrack.parameters import load_bicycle, shipped  # noqa: PLC0415
-    from singletrack.parameters.files import read_text  # noqa: PLC0415
-    from singletrack.parameters.measure import measure as make  # noqa: PLC0415
+    from singletrack.parameters import load_bicycle, shipped
+    from singletrack.parameters.files import read_text
+    from singletrack.parameters.measure import measure as make
 
     if not Path(path).exists():
         raise InputError(f"{path}: there is no such file")
@@ -316,9 +315,9 @@ def measure(
 
 
 def _write_bicycle(bicycle: Bicycle, output: str | Path) -> None:
-    from singletrack.parameters.formats.parameter_sets import write_parameter_set  # noqa: PLC0415
-    from singletrack.parameters.formats.text import write_bicycle_text  # noqa: PLC0415
-    from singletrack.parameters.formats.toml import write_toml  # noqa: PLC0415
+    from singletrack.parameters.formats.parameter_sets import write_parameter_set
+    from singletrack.parameters.formats.text import write_bicycle_text
+    from singletrack.parameters.formats.toml import write_toml
 
     writers: dict[str, Any] = {"toml": write_toml, "text": write_bicycle_text, "yaml": write_parameter_set}
     kind = _SUFFIXES.get(Path(output).suffix.lower())
@@ -328,10 +327,10 @@ def _write_bicycle(bicycle: Bicycle, output: str | Path) -> None:
 
 
 def _show_measured(console: Console, found: Measurement, other: Bicycle | None) -> None:
-    from rich.table import Table  # noqa: PLC0415
+    from rich.table import Table
 
-    from singletrack.parameters.comparison import compare_measured  # noqa: PLC0415
-    from singletrack.present.records import parameter_rows  # noqa: PLC0415
+    from singletrack.parameters.comparison import compare_measured
+    from singletrack.present.records import parameter_rows
 
     table = Table(box=None, pad_edge=False)
     for heading in ("parameter", "measured", "standard deviation"):
@@ -353,7 +352,7 @@ def _show_measured(console: Console, found: Measurement, other: Bicycle | None) 
 
 
 def _show_speeds(console: Console, found: Measurement) -> None:
-    from singletrack.analysis.uncertainty import linear_uncertainty  # noqa: PLC0415
+    from singletrack.analysis.uncertainty import linear_uncertainty
 
     try:
         speeds = linear_uncertainty(found.bicycle, covariance=(found.names, found.covariance)).critical_speeds()
@@ -362,7 +361,9 @@ def _show_speeds(console: Console, found: Measurement) -> None:
         return
     for kind in ("weave", "capsize"):
         pairs = zip(getattr(speeds, kind), getattr(speeds, f"{kind}_deviation"), strict=True)
-        console.print(f"{kind} speed: " + (", ".join(f"{v:.4f} ± {s:.2g} m/s" for v, s in pairs) or "never"), markup=False)
+        console.print(
+            f"{kind} speed: " + (", ".join(f"{v:.4f} ± {s:.2g} m/s" for v, s in pairs) or "never"), markup=False
+        )
 
 
 def period(path: str | Path, plot: str | Path | None = None) -> None:
@@ -380,8 +381,8 @@ def period(path: str | Path, plot: str | Path | None = None) -> None:
     InputError
         Names file, line, what was found and what is allowed.
     """
-    from singletrack.parameters.files import read_text  # noqa: PLC0415
-    from singletrack.parameters.oscillation import fit_oscillation, read_signal  # noqa: PLC0415
+    from singletrack.parameters.files import read_text
+    from singletrack.parameters.oscillation import fit_oscillation, read_signal
 
     if not Path(path).exists():
         raise InputError(f"{path}: there is no such file")
@@ -396,10 +397,10 @@ def period(path: str | Path, plot: str | Path | None = None) -> None:
 
 
 def _save_plot(fit: Any, title: str, plot: Path) -> None:
-    import io  # noqa: PLC0415
+    import io
 
-    from singletrack.parameters.output import write_whole  # noqa: PLC0415
-    from singletrack.present.oscillation import oscillation_figure  # noqa: PLC0415
+    from singletrack.parameters.output import write_whole
+    from singletrack.present.oscillation import oscillation_figure
 
     suffix = plot.suffix.lower().removeprefix(".")
     if suffix not in {"png", "svg", "pdf"}:

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from singletrack.arrays import Array
     from singletrack.parameters import Bicycle, Rider
 
-__all__ = ["Derivatives", "derivatives"]
+__all__ = ["Derivatives", "derivatives", "shifted"]
 
 _STEP = 1e-30
 _MATRICES = ("M", "C1", "K0", "K2")
@@ -100,6 +100,19 @@ class Derivatives:
         return found
 
 
+def shifted(
+    bicycle: Bicycle, rider: Rider | None, names: Sequence[str], shifts: np.ndarray
+) -> tuple[Bicycle, Rider | None]:
+    """Return a batch of n designs with parameters changed by shifts (n, k), SI."""
+
+    def changes(record: Bicycle | Rider) -> dict[str, Array]:
+        own = record.values()
+        return {name: own[name] + shifts[:, i] for i, name in enumerate(names) if name in own}
+
+    moved_rider = None if rider is None else rider.replace(**changes(rider))
+    return bicycle.replace(**changes(bicycle)), moved_rider
+
+
 def derivatives(
     bicycle: Bicycle,
     rider: Rider | None = None,
@@ -133,18 +146,12 @@ def derivatives(
     [85.0, -0.9]
     """
     names = tuple(names)
-    steps = 1j * _STEP * np.eye(len(names))
-    stepped = []
-    for record in (bicycle, rider):
-        own = {} if record is None else record.values()
-        changes = {name: own[name] + steps[i] for i, name in enumerate(names) if name in own}
-        stepped.append(record if record is None or not changes else record.replace(**changes))
     known = {**bicycle.values(), **({} if rider is None else rider.values())}
     for name in names:
         if name not in known:
             raise InputError(f"{name} is no parameter of this bicycle or rider (known: {', '.join(known)})")
     model = coefficients(bicycle, rider, posture, shoulder)
-    moved = coefficients(stepped[0], stepped[1], posture, shoulder)
+    moved = coefficients(*shifted(bicycle, rider, names, 1j * _STEP * np.eye(len(names))), posture, shoulder)
     shape = (len(names), 2, 2)
     matrices = {n: np.broadcast_to(np.imag(getattr(moved, n)) / _STEP, shape) for n in _MATRICES}
     gravity = np.array([float(name == "gravity") for name in names])

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from singletrack.analysis.derivatives import Derivatives, derivatives
+from singletrack.analysis.derivatives import Derivatives, derivatives, shifted
 from singletrack.errors import InputError
 from singletrack.linear import CoefficientMatrices, coefficients
 
@@ -124,7 +124,7 @@ class LinearUncertainty:
         with np.errstate(invalid="ignore"):
             linear = gap.min(axis=-1) > CLEARANCE * np.hypot(real, imaginary)
         intervals = [np.stack([x - _Z95 * s, x + _Z95 * s]) for x, s in ((roots.real, real), (roots.imag, imaginary))]
-        return EigenvalueUncertainty(modes.speeds, roots, real, imaginary, *intervals, linear)
+        return EigenvalueUncertainty(modes.speeds, roots, real, imaginary, intervals[0], intervals[1], linear)
 
     def critical_speeds(self) -> CriticalSpeedUncertainty:
         """Return all critical speeds with their standard deviations."""
@@ -168,7 +168,9 @@ class Sample:
         intervals = [np.quantile(part, (0.025, 0.975), axis=0) for part in (roots.real, roots.imag)]
         real, imaginary = roots.real.std(axis=0, ddof=1), roots.imag.std(axis=0, ddof=1)
         linear = np.zeros(real.shape, dtype=bool)
-        return EigenvalueUncertainty(nominal.speeds, nominal.eigenvalues, real, imaginary, *intervals, linear)
+        return EigenvalueUncertainty(
+            nominal.speeds, nominal.eigenvalues, real, imaginary, intervals[0], intervals[1], linear
+        )
 
     def critical_speeds(self) -> CriticalSpeedUncertainty:
         """Return all critical speeds of the design as given, with the spread of those of the same rank in the sample.
@@ -187,9 +189,9 @@ class Sample:
 def _chunks(model: CoefficientMatrices) -> list[CoefficientMatrices]:
     """Return a batch in pieces that keep temporary arrays small."""
     gravity = np.broadcast_to(np.asarray(model.gravity, dtype=float), model.shape)
-    matrices = (model.M, model.C1, model.K0, model.K2, gravity)
-    starts = range(0, model.shape[0], _CHUNK)
-    return [CoefficientMatrices(*(np.asarray(a)[i : i + _CHUNK] for a in matrices)) for i in starts]
+    M, C1, K0, K2 = (np.asarray(matrix) for matrix in (model.M, model.C1, model.K0, model.K2))
+    pieces = [slice(i, i + _CHUNK) for i in range(0, model.shape[0], _CHUNK)]
+    return [CoefficientMatrices(M[p], C1[p], K0[p], K2[p], gravity[p]) for p in pieces]
 
 
 def _covariance(
@@ -265,7 +267,9 @@ def _seated(bicycle: Bicycle, rider: Rider | None) -> Rider | None:
     """Return the rider with the forward lean angle on this bicycle; refuse a batch of designs."""
     for record in (bicycle, rider):
         if record is not None and record.shape != ():
-            raise InputError(f"{record.name or record.kind}: is a batch of shape {record.shape}, must be a single design")
+            raise InputError(
+                f"{record.name or record.kind}: is a batch of shape {record.shape}, must be a single design"
+            )
     return None if rider is None else rider.on(bicycle)
 
 
@@ -311,12 +315,7 @@ def sample_designs(
     values, vectors = np.linalg.eigh(matrix / np.outer(safe, safe))
     root = safe[:, None] * vectors * np.sqrt(np.maximum(values, 0.0))
     drawn = np.random.default_rng(seed).standard_normal((samples, len(names))) @ root.T
-    records = []
-    for record in (bicycle, rider):
-        own = {} if record is None else record.values()
-        changes = {name: own[name] + drawn[:, i] for i, name in enumerate(names) if name in own}
-        records.append(record if record is None or not changes else record.replace(**changes))
-    moved = coefficients(records[0], records[1], posture, shoulder)
+    moved = coefficients(*shifted(bicycle, rider, names, drawn), posture, shoulder)
     good = np.broadcast_to(moved.valid, moved.shape)
     good = good & np.isfinite(np.asarray(moved.M)).all(axis=(-2, -1))
     if good.sum() < max(10, samples // 10):
@@ -325,7 +324,8 @@ def sample_designs(
             "exist; the standard deviations are too large for a sample"
         )
     gravity = np.broadcast_to(np.asarray(moved.gravity, dtype=float), moved.shape)[good]
-    kept = CoefficientMatrices(*(np.asarray(getattr(moved, n))[good] for n in ("M", "C1", "K0", "K2")), gravity)
+    M, C1, K0, K2 = (np.asarray(matrix)[good] for matrix in (moved.M, moved.C1, moved.K0, moved.K2))
+    kept = CoefficientMatrices(M, C1, K0, K2, gravity)
     return Sample(coefficients(bicycle, rider, posture, shoulder), kept, samples)
 
 

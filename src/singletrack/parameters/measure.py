@@ -11,18 +11,14 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from singletrack.arrays import Array
 from singletrack.errors import InputError, unknown_name
 from singletrack.parameters.bicycle import Bicycle
 from singletrack.parameters.formats.text import read_entries
 from singletrack.parameters.raw import check_raw, orientations
 from singletrack.parameters.symbols import GEOMETRY_SYMBOLS, MODEL_SYMBOLS, NAMES
-
-if TYPE_CHECKING:
-    import numpy as np
-
-    from singletrack.parameters.formats.entries import Entries
 
 __all__ = ["CENTRE_FITS", "Measurement", "bicycle_from_measurements", "measure"]
 
@@ -53,8 +49,8 @@ class Measurement:
 
     bicycle: Bicycle
     names: tuple[str, ...]
-    covariance: np.ndarray
-    lines: dict[str, np.ndarray]
+    covariance: Array
+    lines: dict[str, Array]
 
 
 def bicycle_from_measurements(text: str, where: str) -> Bicycle:
@@ -104,13 +100,14 @@ def measure(text: str, where: str, centre_fit: str = "perpendicular") -> Measure
     scaled = jacobian * np.array([deviations[name] for name in uncertain])
     covariance = scaled @ scaled.T
     spread = np.sqrt(np.diag(covariance))
+    fields: dict[str, Any] = dict(zip(names, map(float, values), strict=True))
     bicycle = entries.build(
         lambda: Bicycle(
             name=entries.name,
             description=f"Measured ({centre_fit} fit of the plumb lines)",
             source=f"raw measurements {Path(where).name}",
             standard_deviations={name: float(s) for name, s in zip(names, spread, strict=True) if s > 0},
-            **dict(zip(names, map(float, values), strict=True)),
+            **fields,
         ),
         _LOCATES,
     )
@@ -129,7 +126,7 @@ _LOCATES = {
 
 def _parameters(
     m: dict[str, Any], hung: dict[str, list[str]], centre_fit: str
-) -> tuple[dict[str, Any], dict[str, np.ndarray]]:
+) -> tuple[dict[str, Any], dict[str, Array]]:
     """Return parameters by symbol from measurements by name, both as arrays over the steps."""
     import numpy as np  # noqa: PLC0415
 
@@ -202,7 +199,9 @@ def _geometry(m: dict[str, Any], p: dict[str, Any]) -> dict[str, Any]:
     """Return the frame geometry that seats a rider, as far as it was measured."""
     import numpy as np  # noqa: PLC0415
 
-    found = {name: m[name] for name in ("hbb", "lcs", "lsp", "lst", "lamst", "lf", "wfh", "wrh") if name in m}
+    found: dict[str, Any] = {
+        name: m[name] for name in ("hbb", "lcs", "lsp", "lst", "lamst", "lf", "wfh", "wrh") if name in m
+    }
     if any(name not in m for name in ("whb", "LhbR", "LhbF", "hbb", "lst", "lamst")):
         return found
     # The grip, in the x-z plane, is where two circles about the hubs cross, above the wheels.

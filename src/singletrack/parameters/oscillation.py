@@ -11,12 +11,11 @@ import re
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+from singletrack.arrays import Array
 from singletrack.errors import InputError
 
 if TYPE_CHECKING:
     import numpy as np
-
-    from singletrack.arrays import Array
 
 __all__ = ["Oscillation", "fit_oscillation", "read_signal"]
 
@@ -53,8 +52,8 @@ class Oscillation:
     sine: float
     residual_deviation: float
     correlation: float
-    time: np.ndarray
-    signal: np.ndarray
+    time: Array
+    signal: Array
 
     def at(self, time: Array) -> np.ndarray:
         """Return the fitted signal at times (...) in s."""
@@ -114,7 +113,7 @@ def fit_oscillation(time: Array, signal: Array, where: str = "signal") -> Oscill
     y_scaled = (y - y.mean()) / scale
     span = float(t[-1])
     frequency = _spectral_peak(t, y_scaled)
-    if frequency * span < 1.5:  # noqa: PLR2004  # periods in the record
+    if frequency * span < 1.5:  # periods in the record
         raise InputError(f"{where}: holds {frequency * span:.2g} periods, must hold at least 1.5")
 
     def residuals(x: np.ndarray) -> np.ndarray:
@@ -130,8 +129,10 @@ def fit_oscillation(time: Array, signal: Array, where: str = "signal") -> Oscill
     offset, cosine, sine = (float(c) for c in np.linalg.lstsq(columns, y_scaled, rcond=None)[0])
     left = columns @ [offset, cosine, sine] - y_scaled
     explained = 1 - float(left @ left) / len(t)
-    if explained < 0.5:  # noqa: PLR2004  # less than half of the signal's variance
-        raise InputError(f"{where}: no decaying oscillation: the best one explains {max(explained, 0):.0%} of the signal")
+    if explained < 0.5:  # less than half of the signal's variance
+        raise InputError(
+            f"{where}: no decaying oscillation: the best one explains {max(explained, 0):.0%} of the signal"
+        )
     covariance, spread, correlation = _covariance(t, decay, omega, cosine, sine, left)
     period = 2 * math.pi / omega
     return Oscillation(
@@ -154,12 +155,16 @@ def _checked(time: Array, signal: Array, where: str) -> tuple[np.ndarray, np.nda
 
     t, y = np.asarray(time, dtype=float), np.asarray(signal, dtype=float)
     if t.ndim != 1 or t.shape != y.shape or not _FEWEST <= len(t) <= _LONGEST:
-        raise InputError(f"{where}: has {t.shape} times and {y.shape} values, must have as many, {_FEWEST} to {_LONGEST}")
-    if not (np.isfinite(t).all() and np.isfinite(y).all() and np.abs([t, y]).max() < 1e12):  # noqa: PLR2004
+        raise InputError(
+            f"{where}: has {t.shape} times and {y.shape} values, must have as many, {_FEWEST} to {_LONGEST}"
+        )
+    if not (np.isfinite(t).all() and np.isfinite(y).all() and np.abs([t, y]).max() < 1e12):
         raise InputError(f"{where}: has values that are not finite (or beyond 1e12), must have none")
     steps = np.diff(t)
     if not (steps > 0).all():
-        raise InputError(f"{where}: time does not increase after {t[int(np.argmin(steps > 0))]:g} s, must do so throughout")
+        raise InputError(
+            f"{where}: time does not increase after {t[int(np.argmin(steps > 0))]:g} s, must do so throughout"
+        )
     if not np.std(y) > 1e-9 * (1 + np.abs(y).max()):
         raise InputError(f"{where}: the signal does not change")
     return t, y
@@ -223,20 +228,25 @@ def read_signal(text: str, where: str) -> tuple[np.ndarray, np.ndarray]:
         content = line.split("#", 1)[0].strip()
         if not content:
             continue
-        cells = [cell for cell in re.split(r"[,;\s]+", content) if cell]
-        try:
-            first, second = (float(cell) for cell in cells)
-            if not (math.isfinite(first) and math.isfinite(second)):
-                raise ValueError
-        except ValueError:
+        pair = _two_numbers(content)
+        if pair is None:
             if not rows and not heading and not re.match(r"[+-]?[\d.]", content):
                 heading = True
                 continue
             raise InputError(
                 f"{where}, line {number}: found {content[:60]!r}, must be two finite numbers: time in s, signal"
-            ) from None
-        rows.append((first, second))
+            )
+        rows.append(pair)
     if not rows:
         raise InputError(f"{where}: is empty, must have lines of two numbers: time in s, signal")
     table = np.array(rows)
     return table[:, 0], table[:, 1]
+
+
+def _two_numbers(content: str) -> tuple[float, float] | None:
+    cells = [cell for cell in re.split(r"[,;\s]+", content) if cell]
+    try:
+        first, second = (float(cell) for cell in cells)
+    except ValueError:
+        return None
+    return (first, second) if math.isfinite(first) and math.isfinite(second) else None

@@ -7,7 +7,7 @@ from typing import Any
 from singletrack.errors import InputError, unknown_name
 from singletrack.parameters.bicycle import Bicycle
 from singletrack.parameters.formats.toml import unit_text
-from singletrack.parameters.record import ALLOWED, Parameter
+from singletrack.parameters.record import ALLOWED, Parameter, Record
 from singletrack.parameters.rider import Rider
 from singletrack.parameters.shapes import SEGMENTS
 
@@ -35,7 +35,7 @@ def schema(kind: str) -> dict[str, Any]:
     >>> schema("bicycle")["properties"]["parameters"]["properties"]["trail"]["description"]
     'front contact behind the steer axis at the ground [m], a finite number'
     """
-    kinds = {"bicycle": Bicycle, "rider": Rider}
+    kinds: dict[str, type[Record]] = {"bicycle": Bicycle, "rider": Rider}
     if kind not in kinds:
         raise InputError(unknown_name("kind", kind, kinds))
     descriptions = kinds[kind].descriptions()
@@ -93,6 +93,6 @@ def _segments() -> dict[str, Any]:
         "type": "object",
         "required": list(parts),
         "additionalProperties": False,
-        "properties": dict.fromkeys(parts, {"type": "number"}),
+        "properties": {part: {"type": "number"} for part in parts},
     }
     return {"type": "object", "additionalProperties": False, "properties": dict.fromkeys(SEGMENTS, shape)}

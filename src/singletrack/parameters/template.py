@@ -65,7 +65,7 @@ _RAW_SKETCH = r"""
     3. Compound pendulum: period while swinging about the wheel's axle        ======  ceiling
                                                                                 |     rod; calibrate it once with
          knife edge ->  ^                                                       |     a straight bar: mP, lP, dP, TtP1
-                       /|\    T = Tc..1                                       --o--   frame, hung in orientations 1, 2, 3
+                       /|\    T = Tc..1                                       --o--   frame, hung in orientations 1 2 3
                       / | \   l = axis to centre                              /   \   angles alpha.. of the head tube,
                         o     (wheels: lF, lR)                                        periods Tt..1, Tt..2, Tt..3
     4. Plumb line through the hanging point in each orientation: a = its distance from the wheel centre
@@ -99,7 +99,7 @@ def template(kind: str) -> str:
     sketch = _BICYCLE_SKETCH if kind == "bicycle" else _RIDER_SKETCH
     lines = [
         f"# A {kind} for singletrack. Replace each ? by a number; the unit may be another one of the same kind (mm,",
-        '# in, lb). A standard deviation may follow: "0.0563 +/- 0.0017 m". Delete what you do not have and is optional.',
+        '# in, lb). A standard deviation may follow: "0.0563 +/- 0.0017 m". Delete what is optional and unknown.',
         "#",
         *(f"# {line}".rstrip() for line in sketch.strip("\n").splitlines()),
         "",
@@ -121,7 +121,8 @@ def _parameter_lines(descriptions: dict[str, Parameter]) -> Iterator[str]:
         yield f"# {group}"
         for name, p in members:
             if name == "forward_lean_angle":
-                yield f'# {name} = "? deg" # {p.meaning}; or of several: {{ stratos = "63.9 deg", browser = "82.9 deg" }}'
+                several = '{ stratos = "63.9 deg", browser = "82.9 deg" }'
+                yield f'# {name} = "? deg" # {p.meaning}; or of several: {several}'
                 continue
             example = "9.81" if name == "gravity" else "?"
             text = f'"{example} {unit_text(p.unit)}"' if p.unit else f'"{example}"'

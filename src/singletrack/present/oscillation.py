@@ -25,7 +25,7 @@ def oscillation_figure(fit: Oscillation, title: str = "") -> Any:
 
     figure = Figure(figsize=(8.0, 5.0), layout="constrained")
     top, bottom = figure.subplots(2, 1, sharex=True, height_ratios=[3, 1])
-    fine = np.linspace(fit.time[0], fit.time[-1], 20 * len(fit.time) if len(fit.time) < 500 else 2 * len(fit.time))  # noqa: PLR2004
+    fine = np.linspace(fit.time[0], fit.time[-1], 20 * len(fit.time) if len(fit.time) < 500 else 2 * len(fit.time))
     top.plot(fit.time, fit.signal, ".", markersize=2, color="0.5", label="signal")
     top.plot(fine, fit.at(fine), color="C0", linewidth=1, label="fit")
     top.set_ylabel("signal")

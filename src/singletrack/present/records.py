@@ -79,11 +79,17 @@ def _derived_bicycle(b: Bicycle) -> Iterator[Row]:
     geometry = "derived geometry"
     yield Row(geometry, "head angle", f"{_number(90 - math.degrees(tilt))} deg", "", "steer axis from the ground")
     yield Row(geometry, "fork offset", f"{_number(offset)} m", "", "front hub ahead of the steer axis")
-    yield Row(geometry, "mechanical trail", f"{_number(float(b.trail) * math.cos(tilt))} m", "", "normal to the steer axis")
+    yield Row(
+        geometry, "mechanical trail", f"{_number(float(b.trail) * math.cos(tilt))} m", "", "normal to the steer axis"
+    )
     whole = "whole bicycle"
     yield Row(whole, "total mass", f"{_number(total)} kg", "", "")
-    yield Row(whole, "centre of mass", f"{_number(centre_x)} m, {_number(-centre_z)} m", "", "ahead of rear contact, up")
-    yield Row(whole, "load on wheels", f"{_number(total * float(b.gravity) - front)} N, {_number(front)} N", "", "rear, front")
+    yield Row(
+        whole, "centre of mass", f"{_number(centre_x)} m, {_number(-centre_z)} m", "", "ahead of rear contact, up"
+    )
+    yield Row(
+        whole, "load on wheels", f"{_number(total * float(b.gravity) - front)} N, {_number(front)} N", "", "rear, front"
+    )
     for end in ("rear", "front"):
         xx, zz, xz = (float(getattr(b, f"{end}_frame_inertia_{axes}")) for axes in ("xx", "zz", "xz"))
         mean, half = (xx + zz) / 2, math.hypot((xx - zz) / 2, xz)
@@ -94,7 +100,9 @@ def _derived_bicycle(b: Bicycle) -> Iterator[Row]:
 
 def _derived_rider(r: Rider) -> Iterator[Row]:
     group = "segments"
-    yield Row(group, "torso", f"{_number(float(r.torso_width))} x {_number(float(r.torso_thickness))} m", "", "wide, thick")
+    yield Row(
+        group, "torso", f"{_number(float(r.torso_width))} x {_number(float(r.torso_thickness))} m", "", "wide, thick"
+    )
     for name in ("head", "torso", "upper_arm", "lower_arm", "upper_leg", "lower_leg"):
         mass = float(getattr(r, f"{name}_mass_fraction")) * float(r.rider_mass)
         yield Row(group, f"{name.replace('_', ' ')} mass", f"{_number(mass)} kg", "", "one side" if "_" in name else "")
@@ -128,5 +136,3 @@ def uncertain_results(bicycle: Bicycle, rider: Rider | None, posture: str, shoul
             found[kind] = list(zip(getattr(speeds, kind), getattr(speeds, f"{kind}_deviation"), strict=True))
         found["matrix_deviations"] = spread.matrices()
     return found
-
-

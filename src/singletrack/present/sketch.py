@@ -49,7 +49,9 @@ class _Canvas:
         rows, columns = self._dots.shape[0] // 4, self._dots.shape[1] // 2
         bits = (self._dots.reshape(rows, 4, columns, 2) * _BITS[None, :, None, :]).sum(axis=(1, 3))
         lines = [
-            "".join(self._marks.get((r, c)) or (chr(0x2800 + bits[r, c]) if bits[r, c] else " ") for c in range(columns))
+            "".join(
+                self._marks.get((r, c)) or (chr(0x2800 + bits[r, c]) if bits[r, c] else " ") for c in range(columns)
+            )
             for r in range(rows)
         ]
         return "\n".join(line.rstrip() for line in lines)

@@ -4,18 +4,17 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, TypeVar
 
 from singletrack.errors import InputError, SingletrackError, nearest
 from singletrack.parameters.bicycle import Bicycle
 from singletrack.parameters.symbols import MODEL_SYMBOLS, NAMES, SYMBOLS
+from singletrack.parameters.units import Quantity
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
-
-    from singletrack.parameters.units import Quantity
+    from collections.abc import Iterable
 
 __all__ = ["Entries", "bicycle_from_entries"]
 
@@ -76,7 +75,9 @@ class Entries:
             if name in self.quantities:
                 found = self.quantities[name].value
                 if not math.isclose(found, value, rel_tol=1e-4, abs_tol=1e-9):
-                    raise InputError(f"{self.place(name)}: {name} = {found:g}, must be {value:g}: it follows from the rest")
+                    raise InputError(
+                        f"{self.place(name)}: {name} = {found:g}, must be {value:g}: it follows from the rest"
+                    )
 
     def build(self, make: Callable[[], T], symbols: Mapping[str, str]) -> T:
         """Return what ``make`` returns; a refusal is said with file, line and the file's own name of the parameter.
@@ -107,7 +108,7 @@ def _nearest_regardless_of_case(name: str, known: list[str]) -> str:
 
 
 #: Values that follow from the 25 parameters; some files state them all the same.
-_DEPENDENT = {
+_DEPENDENT: dict[str, Callable[[Mapping[str, float]], float]] = {
     **dict.fromkeys(("xR", "yB", "yR", "yH", "yF", "IRxz", "IFxz"), lambda _: 0.0),
     "xF": lambda b: b["w"],
     "zR": lambda b: -b["rR"],

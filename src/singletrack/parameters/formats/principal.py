@@ -7,7 +7,7 @@ by alpha about y, has Ixx = m (kaa² cos² + kbb² sin²), Izz = m (kaa² sin² 
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from singletrack.errors import InputError
 from singletrack.parameters.bicycle import Bicycle
@@ -71,11 +71,11 @@ def _dependent(p: Mapping[str, float]) -> dict[str, float]:
     return {**zero, "kFbb": p["kFaa"], "kRbb": p["kRaa"], "xF": p["w"], "zR": -p["rR"], "zF": -p["rF"]}
 
 
-def _benchmark(p: Mapping[str, float]) -> dict[str, float]:
+def _benchmark(p: Mapping[str, float]) -> dict[str, Any]:
     """Return our parameters from those of a principal set."""
     rear = combine_planar([_body(p, "D"), _body(p, "P")])
     front = _body(p, "H")
-    found = {NAMES[symbol]: p[symbol] for symbol in _SAME}
+    found: dict[str, Any] = {NAMES[symbol]: p[symbol] for symbol in _SAME}
     for end, body in (("rear", rear), ("front", front)):
         found |= {f"{end}_frame_mass": body.mass, f"{end}_frame_x": body.x, f"{end}_frame_z": body.z}
         found |= {f"{end}_frame_inertia_{axes}": getattr(body, axes) for axes in ("xx", "yy", "zz", "xz")}

@@ -36,19 +36,21 @@ def format_of(text: str, where: str) -> str:
     ('text', 'measured', 'toml')
     """
     suffix = Path(where).suffix.lower()
-    if suffix == ".toml":
-        return "toml"
+    return "toml" if suffix == ".toml" else _format_by_content(text, suffix)
+
+
+def _format_by_content(text: str, suffix: str) -> str:
     names = set(re.findall(r"^\s*([A-Za-z]\w*)\s*[:=]", text, re.MULTILINE))
     if "measurementconversionfactor" in names or {"Ls1L", "La2L"} <= names:
         return "yeadon"
     if "somersault" in names:
         return "configuration"
-    if suffix in {".yml", ".yaml"}:
-        return "yaml"
     if "parameters" not in names and re.search(r"^\s*\[\s*parameters\s*\]|^\s*kind\s*=", text, re.MULTILINE):
         return "toml"
     if any(re.fullmatch(r"T[ct][A-Z]\d|alpha[BHGS]\d", name) for name in names):
         return "measured"
+    if suffix in {".yml", ".yaml"}:
+        return "yaml"
     equals = len(re.findall(r"^[^#\n:]*=", text, re.MULTILINE))
     colons = len(re.findall(r"^[^#\n=]*:", text, re.MULTILINE))
     return "yaml" if colons > equals else "text"

@@ -37,7 +37,9 @@ def read_entries(text: str, where: str) -> Entries:
             continue
         name, equals, value = (part.strip() for part in content.partition("="))
         if not equals or not re.fullmatch(r"[A-Za-z]\w{0,40}", name):
-            raise InputError(f"{where}, line {number}: found {content[:60]!r}, must be a line such as c = 0.0686+/-0.0017")
+            raise InputError(
+                f"{where}, line {number}: found {content[:60]!r}, must be a line such as c = 0.0686+/-0.0017"
+            )
         if name in lines:
             raise InputError(f"{where}, line {number}: {name} is given twice (first on line {lines[name]})")
         try:

@@ -103,9 +103,9 @@ def quantity_text(value: float, deviation: float | None, unit: str) -> str:
     numbers = [value] if deviation is None else [value, float(deviation)]
     texts, written = [repr(number) for number in numbers], unit
     if unit == "rad":
-        degrees = [_degrees(number) for number in numbers]
-        texts, written = (degrees, "deg") if all(degrees) else (texts, "rad")
-    joined = " +/- ".join(text for text in texts if text is not None)
+        degrees = [text for text in map(_degrees, numbers) if text is not None]
+        texts, written = (degrees, "deg") if len(degrees) == len(numbers) else (texts, "rad")
+    joined = " +/- ".join(texts)
     return f'"{joined} {written.replace("**", "^")}"' if unit else f'"{joined}"'
 
 

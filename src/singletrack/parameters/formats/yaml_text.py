@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -10,8 +11,6 @@ from singletrack.parameters.formats.entries import Entries
 from singletrack.parameters.numbers import parse_number
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
-
     from singletrack.parameters.units import Quantity
 
 __all__ = ["Item", "numbers", "read_mapping"]
@@ -64,7 +63,9 @@ def _refuse_depth(events: Any, yaml: Any, where: str) -> None:
         if depth > _DEEPEST:
             raise InputError(f"{where}, line {event.start_mark.line + 1}: is nested more than {_DEEPEST} deep")
         if isinstance(event, yaml.AliasEvent) or getattr(event, "anchor", None):
-            raise InputError(f"{where}, line {event.start_mark.line + 1}: has a YAML reference (& or *), must have none")
+            raise InputError(
+                f"{where}, line {event.start_mark.line + 1}: has a YAML reference (& or *), must have none"
+            )
 
 
 def _mapping(node: Any, yaml: Any, where: str) -> dict[str, Item]:
@@ -80,7 +81,9 @@ def _mapping(node: Any, yaml: Any, where: str) -> dict[str, Item]:
         if not isinstance(key, yaml.ScalarNode):
             raise InputError(f"{where}, line {line}: found a list or mapping as a name, must be a word")
         if key.value in items:
-            raise InputError(f"{where}, line {line}: {key.value} is given twice (first on line {items[key.value].line})")
+            raise InputError(
+                f"{where}, line {line}: {key.value} is given twice (first on line {items[key.value].line})"
+            )
         if isinstance(value, yaml.SequenceNode):
             raise InputError(f"{where}, line {line}: {key.value[:60]} is a list, must be one value")
         scalar = isinstance(value, yaml.ScalarNode)

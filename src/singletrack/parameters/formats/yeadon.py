@@ -65,7 +65,9 @@ def read_configuration(text: str, where: str) -> float:
     entries.require(["somersault"], "the configuration")
     for name, value in entries.values().items():
         if name in _STRAIGHT and value != 0:
-            raise InputError(f"{entries.place(name)}: {name} = {value:g} rad, must be 0: a rider's trunk is straight here")
+            raise InputError(
+                f"{entries.place(name)}: {name} = {value:g} rad, must be 0: a rider's trunk is straight here"
+            )
     lean = math.pi / 2 - entries.quantities["somersault"].value
     if not 0 < lean < math.pi / 2:
         raise InputError(
@@ -98,8 +100,8 @@ def read_yeadon(text: str, where: str, forward_lean_angle: float | None = None) 
     segments = {name: _combined(parts) for name, parts in _solids(human).items()}
     lengths = _lengths(human.meas)
     total = sum(MASS_FRACTIONS[f"{name}_mass_fraction"] * body[0] for name, body in segments.items())
-    values = {**lengths, **_outlines(human.meas)}
-    fractions = {f"{name}_mass_fraction": float(body[0] / total) for name, body in segments.items()}
+    values: dict[str, Any] = {**lengths, **_outlines(human.meas)}
+    fractions: dict[str, Any] = {f"{name}_mass_fraction": float(body[0] / total) for name, body in segments.items()}
     spans = {name: lengths.get(f"{name}_length", values["head_circumference"] / (2 * math.pi)) for name in segments}
 
     def make() -> Rider:
@@ -148,7 +150,7 @@ def _human(entries: Entries, metres: dict[str, float], mass: float | None) -> An
         import yeadon  # noqa: PLC0415  # optional
     except ImportError:
         raise InputError(
-            f"{entries.where}: reading Yeadon's measurements needs the package yeadon: pip install 'singletrack[yeadon]'"
+            f"{entries.where}: reading Yeadon's measurements needs yeadon: pip install 'singletrack[yeadon]'"
         ) from None
     import numpy as np  # noqa: PLC0415
 
@@ -221,7 +223,7 @@ def _shape(body: _Body, length: float) -> SegmentShape:
 
 
 def _lengths(m: dict[str, float]) -> dict[str, float]:
-    """Return joint-to-joint lengths in m: the hand holds the grip at the base of the thumb, the heel is on the pedal."""
+    """Return joint-to-joint lengths in m: the base of the thumb is at the grip, the heel on the pedal."""
     return {
         "torso_length": float(m["Ls4L"]),
         "upper_arm_length": float(m["La2L"]),
