@@ -7,7 +7,7 @@ import math
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from singletrack.errors import InputError, PostureError, SingletrackError, unknown_name
+from singletrack.errors import InputError, PostureError, SingletrackError
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -29,12 +29,13 @@ def _console() -> Console:
 
 def _deliver(text: str, output: str | Path | None) -> None:
     """Write a file whole, or print."""
-    from singletrack.parameters.output import write_whole
+    from singletrack.present.files import write_whole
 
     if output is None:
         print(text, end="" if text.endswith("\n") else "\n")  # noqa: T201  # plain text, to be piped into a file
     else:
-        _console().print(f"wrote {write_whole(output, text)}", markup=False, soft_wrap=True)
+        write_whole(Path(output), text)
+        _console().print(f"wrote {output}", markup=False, soft_wrap=True)
 
 
 def template(kind: str, output: str | Path | None = None) -> None:
@@ -63,43 +64,16 @@ def schema(kind: str, output: str | Path | None = None) -> None:
     _deliver(json.dumps(make(kind), indent=2, ensure_ascii=False) + "\n", output)
 
 
-def _load_any(name_or_path: str | Path, configuration: str | Path | None = None) -> Bicycle | Rider:
-    """Load whichever of a bicycle and a rider it is."""
-    from singletrack.parameters import load_bicycle, load_rider, shipped
-    from singletrack.parameters.files import read_text
-    from singletrack.parameters.formats.reading import format_of
+def _load(name_or_path: str | Path, configuration: str | Path | None = None) -> Bicycle | Rider:
+    """Load whichever of a bicycle and a rider it is; a rider by Yeadon's measurements with a configuration."""
+    from singletrack.parameters.files import load_any, read_text
 
-    name = str(name_or_path)
-    if configuration is not None:
-        from singletrack.parameters.formats.yeadon import read_configuration, read_yeadon
+    if configuration is None:
+        return load_any(name_or_path)
+    from singletrack.parameters.formats.yeadon import read_configuration, read_yeadon
 
-        lean = read_configuration(read_text(Path(configuration)), str(configuration))
-        return read_yeadon(read_text(Path(name)), name, lean)
-    if name in shipped("rider"):
-        return load_rider(name)
-    path = Path(name)
-    if name not in shipped("bicycle"):
-        try:
-            exists = path.exists()
-        except (OSError, ValueError):
-            exists = False
-        if not exists:
-            known = [*shipped("bicycle"), *shipped("rider")]
-            raise InputError(f"{unknown_name('bicycle or rider', name[:200], known)}, and there is no such file")
-        text = read_text(path)
-        found = format_of(text, name)
-        if found == "yeadon" or (found == "toml" and _says_rider(text)):
-            return load_rider(name)
-    return load_bicycle(name)
-
-
-def _says_rider(text: str) -> bool:
-    import re
-
-    kind = re.search(r"^\s*kind\s*=\s*[\"'](\w*)", text, re.MULTILINE)
-    if kind:
-        return kind[1] == "rider"
-    return bool(re.search(r"^\s*(rider_mass|torso_length|chest_circumference)\s*=", text, re.MULTILINE))
+    lean = read_configuration(read_text(Path(configuration)), str(configuration))
+    return read_yeadon(read_text(Path(name_or_path)), str(name_or_path), lean)
 
 
 def show(
@@ -129,7 +103,7 @@ def show(
     """
     from singletrack.parameters import Rider, load_rider
 
-    record = _load_any(name_or_path)
+    record = _load(name_or_path)
     console = _console()
     if isinstance(record, Rider):
         if rider is not None:
@@ -241,7 +215,7 @@ def convert(
         raise InputError(f"{output}: unknown suffix {target.suffix!r}, must be one of {', '.join(_SUFFIXES)}")
     if target.exists() and Path(source).exists() and target.samefile(source):
         raise InputError(f"{output}: is the file to read, must be another one")
-    record = _load_any(source, configuration)
+    record = _load(source, configuration)
     if kind == "toml":
         text = write_toml(record)
     elif not isinstance(record, Bicycle):
@@ -399,7 +373,7 @@ def period(path: str | Path, plot: str | Path | None = None) -> None:
 def _save_plot(fit: Any, title: str, plot: Path) -> None:
     import io
 
-    from singletrack.parameters.output import write_whole
+    from singletrack.present.files import write_whole
     from singletrack.present.oscillation import oscillation_figure
 
     suffix = plot.suffix.lower().removeprefix(".")
@@ -407,4 +381,5 @@ def _save_plot(fit: Any, title: str, plot: Path) -> None:
         raise InputError(f"{plot}: unknown suffix {plot.suffix!r}, must be one of .png, .svg, .pdf")
     content = io.BytesIO()
     oscillation_figure(fit, title).savefig(content, format=suffix)
-    _console().print(f"wrote {write_whole(plot, content.getvalue())}", markup=False, soft_wrap=True)
+    write_whole(plot, content.getvalue())
+    _console().print(f"wrote {plot}", markup=False, soft_wrap=True)

@@ -19,7 +19,7 @@ from singletrack.parameters.units import parse_quantity
 if TYPE_CHECKING:
     from importlib.resources.abc import Traversable
 
-__all__ = ["load_bicycle", "load_rider", "override", "parse_record", "read_text", "shipped"]
+__all__ = ["load_any", "load_bicycle", "load_rider", "override", "parse_record", "read_text", "shipped"]
 
 R = TypeVar("R", bound=Record)
 
@@ -80,16 +80,38 @@ def load_rider(name_or_path: str | Path) -> Rider:
     return _load(Rider, name_or_path)
 
 
+def load_any(name_or_path: str | Path) -> Bicycle | Rider:
+    """Load a bicycle or a rider, whichever it is; errors as in :func:`load_bicycle`.
+
+    >>> load_any("rider-a").kind
+    'rider'
+    """
+    if str(name_or_path) in shipped("rider"):
+        return load_rider(name_or_path)
+    if str(name_or_path) in shipped("bicycle"):
+        return load_bicycle(name_or_path)
+    path = Path(name_or_path)
+    if not _is_there(path):
+        known = [*shipped("bicycle"), *shipped("rider")]
+        raise InputError(f"{unknown_name('name', str(name_or_path)[:200], known)}, and there is no such file")
+    from singletrack.parameters.formats.reading import is_rider  # noqa: PLC0415  # lazy: seldom needed
+
+    return load_rider(path) if is_rider(read_text(path), str(path)) else load_bicycle(path)
+
+
+def _is_there(path: Path) -> bool:
+    try:
+        return path.exists()
+    except (OSError, ValueError):  # a name too long, or with a NUL
+        return False
+
+
 def _load(cls: type[R], name_or_path: str | Path) -> R:
     known = shipped(cls.kind)
     if isinstance(name_or_path, str) and name_or_path in known:
         return parse_record(cls, known[name_or_path].read_text(encoding="utf-8"), name_or_path)
     path = Path(name_or_path)
-    try:
-        exists = path.exists()
-    except (OSError, ValueError):  # a name too long, or with a NUL
-        exists = False
-    if not exists:
+    if not _is_there(path):
         raise InputError(f"{unknown_name(cls.kind, str(name_or_path)[:200], known)}, and there is no such file")
     from singletrack.parameters.formats.reading import read_record  # noqa: PLC0415  # lazy: seldom needed
 

@@ -9,6 +9,7 @@ from singletrack.errors import InputError, unknown_name
 from singletrack.parameters.bicycle import Bicycle
 from singletrack.parameters.formats.toml import unit_text
 from singletrack.parameters.raw import RAW
+from singletrack.parameters.record import ALLOWED
 from singletrack.parameters.rider import Rider
 
 if TYPE_CHECKING:
@@ -89,7 +90,7 @@ def template(kind: str) -> str:
     Examples
     --------
     >>> print(template("bicycle").splitlines()[-1])
-    # stem_length = "? m" # along the steer axis
+    # stem_length = "? m" # ls: along the steer axis; greater than zero
     """
     if kind not in KINDS:
         raise InputError(unknown_name("kind", kind, KINDS))
@@ -126,7 +127,7 @@ def _parameter_lines(descriptions: dict[str, Parameter]) -> Iterator[str]:
                 continue
             example = "9.81" if name == "gravity" else "?"
             text = f'"{example} {unit_text(p.unit)}"' if p.unit else f'"{example}"'
-            yield f"{'# ' if p.optional else ''}{name} = {text} # {p.meaning}"
+            yield f"{'# ' if p.optional else ''}{name} = {text} # {p.symbol}: {p.meaning}; {ALLOWED[p.allowed][0]}"
 
 
 def _raw_lines() -> Iterator[str]:

@@ -8,7 +8,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, TypeVar
 
-from singletrack.errors import InputError, SingletrackError, nearest
+from singletrack.errors import InputError, SingletrackError, nearest, unknown_name
 from singletrack.parameters.bicycle import Bicycle
 from singletrack.parameters.symbols import MODEL_SYMBOLS, NAMES, SYMBOLS
 from singletrack.parameters.units import Quantity
@@ -66,8 +66,8 @@ class Entries:
         known = list(known)
         for name in self.quantities:
             if name not in known:
-                near = nearest(name, known) or _nearest_regardless_of_case(name, known)
-                raise InputError(f"{self.place(name)}: unknown {what} {name[:60]!r}{near} (known: {', '.join(known)})")
+                near = "" if nearest(name, known) else _nearest_regardless_of_case(name, known)
+                raise InputError(f"{self.place(name)}: {unknown_name(what, name, known)}{near}")
 
     def require_equal(self, expected: Mapping[str, float]) -> None:
         """Raise InputError if a dependent value is given and is not what follows from the others."""

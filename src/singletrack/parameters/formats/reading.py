@@ -14,7 +14,7 @@ from singletrack.parameters.record import Record
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-__all__ = ["FORMATS", "format_of", "read_record"]
+__all__ = ["FORMATS", "format_of", "is_rider", "read_record"]
 
 R = TypeVar("R", bound=Record)
 
@@ -54,6 +54,21 @@ def _format_by_content(text: str, suffix: str) -> str:
     equals = len(re.findall(r"^[^#\n:]*=", text, re.MULTILINE))
     colons = len(re.findall(r"^[^#\n=]*:", text, re.MULTILINE))
     return "yaml" if colons > equals else "text"
+
+
+def is_rider(text: str, where: str) -> bool:
+    """Tell whether a text describes a rider rather than a bicycle.
+
+    >>> is_rider('kind = "rider"', "a.toml"), is_rider("w = 1.02", "b.txt")
+    (True, False)
+    """
+    found = format_of(text, where)
+    if found != "toml":
+        return found in {"yeadon", "configuration"}
+    kind = re.search(r"^\s*kind\s*=\s*[\"'](\w*)", text, re.MULTILINE)
+    if kind:
+        return kind[1] == "rider"
+    return bool(re.search(r"^\s*(rider_mass|torso_length|chest_circumference)\s*=", text, re.MULTILINE))
 
 
 def read_record(cls: type[R], text: str, where: str) -> R:
