@@ -256,7 +256,7 @@ def linear_uncertainty(
     >>> from singletrack import load_bicycle
     >>> bicycle = replace(load_bicycle("stratos"), standard_deviations={"trail": 0.0016})
     >>> linear_uncertainty(bicycle).critical_speeds().weave_deviation.round(3).tolist()
-    [0.044]
+    [0.006]
     """
     rider = _seated(bicycle, rider)
     names, matrix = _covariance(bicycle, rider, covariance)

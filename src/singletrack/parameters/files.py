@@ -161,8 +161,14 @@ def parse_record(cls: type[R], text: str, where: str) -> R:
     """
     try:
         document = tomllib.loads(text)
-    except (tomllib.TOMLDecodeError, RecursionError) as error:
-        raise InputError(f"{where}: is not valid TOML: {error or 'nested too deeply'}") from None
+    except tomllib.TOMLDecodeError as error:
+        raise InputError(f"{where}: is not valid TOML: {error}") from None
+    except RecursionError:
+        raise InputError(f"{where}: is not valid TOML: nested too deeply") from None
+    except ValueError:  # Python's limit on the digits of whole numbers
+        longest = max(re.finditer(r"\d+", text), key=lambda found: len(found[0]))
+        line = text.count("\n", 0, longest.start()) + 1
+        raise InputError(f"{where}, line {line}: found a number of {len(longest[0])} digits, must be shorter") from None
     header = _checked_header(cls, document, where, text)
     fields, deviations = _quantities(cls, header.pop("parameters"), where, text)
     fields |= _tables(cls, document, where, text)
@@ -254,7 +260,13 @@ def _place_of_fault(message: str, name: str, where: str, text: str) -> str:
     """Put file and line in the place of the record's name before a fault of a value."""
     reason = message.removeprefix(f"{name}: ")
     parameter = re.match(r"\w+", reason)
-    return f"{_place(where, text, parameter[0]) if parameter else where}: {reason}"
+    if parameter is None:
+        return f"{where}: {reason}"
+    place = _place(where, text, parameter[0])
+    if place == where:  # a fault of several values that share the beginning of their names
+        first = re.search(rf"\b{re.escape(parameter[0])}\w*(?=[\"']?\s*[=\].])", text)
+        place = where if first is None else _place(where, text, first[0])
+    return f"{place}: {reason}"
 
 
 def override(record: R, texts: dict[str, str], where: str = "--set") -> R:

@@ -120,7 +120,10 @@ _LOCATES = {
     **{NAMES[s]: name for s, name in {"rR": "dR", "rF": "dF", "c": "f", "lam": "gamma"}.items()},
     **{NAMES[f"I{b}xx"]: f"Tt{b}1" for b in "RFBH"},
     **{NAMES[f"I{b}yy"]: f"Tc{b}1" for b in "RFBH"},
+    **{NAMES[f"I{b}{axes}"]: f"Tt{b}{i}" for b in "BH" for axes, i in (("xz", 2), ("zz", 3))},
     **{NAMES[f"{axis}{b}"]: f"a{b}1" for b in "BH" for axis in "xz"},
+    **{NAMES[s]: s for s in ("hbb", "lcs", "lsp", "lst", "lamst", "lf", "wfh", "wrh")},
+    **{"stem_length": "LhbR", "handlebar_length": "LhbF"},
 }
 
 

@@ -129,7 +129,11 @@ class Record:
 
     def faults(self) -> tuple[Fault, ...]:
         """Return what is wrong with the values, one fault per rule, with a mask over the batch."""
-        return tuple(self._faults())
+        import numpy as np  # noqa: PLC0415
+
+        # Numbers near the largest double overflow on the way to being refused.
+        with np.errstate(over="ignore", invalid="ignore"):
+            return tuple(self._faults())
 
     def _faults(self) -> Iterator[Fault]:
         for name, description in self.descriptions().items():

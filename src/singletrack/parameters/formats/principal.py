@@ -55,9 +55,12 @@ def bicycle_from_principal(entries: Entries, source: str) -> Bicycle:
     # A rear frame of masses and radii near the largest double overflows; the record then refuses what is not finite.
     own = {name: values[name] for name in (*_OWN, *_DEPENDENT, "v") if name in values}
     symbols = {NAMES[symbol]: symbol for symbol in _SAME}
-    symbols |= {"rear_frame_inertia_xx": "kDaa", "front_frame_inertia_xx": "kHaa", "rear_frame_z": "zD"}
-    symbols |= {"rear_wheel_inertia_xx": "kRaa", "front_wheel_inertia_xx": "kFaa", "rear_frame_mass": "mD"}
-    symbols |= {"rear_wheel_inertia_yy": "kRyy", "front_wheel_inertia_yy": "kFyy"}
+    for end, letter in (("rear", "D"), ("front", "H")):
+        axes = {"xx": "aa", "yy": "yy", "zz": "bb", "xz": "aa"}
+        symbols |= {f"{end}_frame_{part}": f"{part[0]}{letter}" for part in ("mass", "x", "z")}
+        symbols |= {f"{end}_frame_inertia_{axis}": f"k{letter}{radius}" for axis, radius in axes.items()}
+    for end, letter in (("rear", "R"), ("front", "F")):
+        symbols |= {f"{end}_wheel_inertia_{axis}": f"k{letter}{r}" for axis, r in (("xx", "aa"), ("yy", "yy"))}
     return entries.build(
         lambda: Bicycle(
             name=entries.name, description=entries.description, source=source, extras=own, **_benchmark(values)

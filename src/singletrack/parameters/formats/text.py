@@ -76,8 +76,8 @@ def write_bicycle_text(bicycle: Bicycle) -> str:
     Examples
     --------
     >>> from singletrack import load_bicycle
-    >>> write_bicycle_text(load_bicycle("stratos")).splitlines()[-5]
-    'w = 1.037'
+    >>> write_bicycle_text(load_bicycle("stratos")).splitlines()[0]
+    'IBxx = 0.37287'
     """
     lines = []
     deviations = bicycle.standard_deviations

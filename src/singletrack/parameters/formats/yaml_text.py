@@ -46,9 +46,12 @@ def read_mapping(text: str, where: str) -> dict[str, Item]:
         root = yaml.compose(text, Loader=yaml.SafeLoader)
     except yaml.YAMLError as error:
         mark = getattr(error, "problem_mark", None)
-        place = f"{where}, line {mark.line + 1}" if mark is not None else where
+        line = text.count("\n", 0, getattr(error, "position", 0)) if mark is None else mark.line
+        place = f"{where}, line {line + 1}"
         reason = getattr(error, "problem", None) or getattr(error, "reason", None) or "unreadable character"
         raise InputError(f"{place}: is not valid YAML ({reason})") from None
+    except InputError:
+        raise
     except (RecursionError, ValueError, OverflowError):
         raise InputError(f"{where}: is not valid YAML") from None
     if root is None:

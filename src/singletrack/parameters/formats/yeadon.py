@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import contextlib
 import io
+import itertools
 import math
 import warnings
 from pathlib import Path
@@ -39,6 +40,12 @@ MEASUREMENTS = (
     *(name for limb in "jk" for name in _names(limb, "1345689", "123456789", "89", "6")),
 )
 _ALSO = ("measurementconversionfactor", "totalmass")
+# Lengths measured from the same joint, outwards.
+_CHAINS = (
+    *(("Ls1L", "Ls2L", "Ls3L", "Ls4L", "Ls5L"), ("Ls6L", "Ls7L", "Ls8L")),
+    *(tuple(f"L{limb}{i}L" for i in levels) for limb in "ab" for levels in ("234", "567")),
+    *(tuple(f"L{limb}{i}L" for i in levels) for limb in "jk" for levels in ("1345", "689")),
+)
 #: Angles of Yeadon's configuration that would bend or turn the trunk, which is straight and symmetric here.
 _STRAIGHT = (
     *("tilt", "twist", "PTsagittalFlexion", "PTbending", "TCspinalTorsion", "TCsagittalSpinalFlexion"),
@@ -139,6 +146,13 @@ def _checked(entries: Entries) -> tuple[dict[str, float], float | None]:
                 f"{entries.place(name)}: {name} = {values[name]:g} is {metres:g} m with "
                 f"measurementconversionfactor {factor:g}, must be between 0.001 and 3 m"
             )
+    for chain in _CHAINS:
+        for inner, outer in itertools.pairwise(chain):
+            if values[outer] <= values[inner]:
+                raise InputError(
+                    f"{entries.place(outer)}: {outer} = {values[outer]:g}, must be more than {inner} = {values[inner]:g}, "
+                    "which is nearer to the joint both are measured from"
+                )
     mass = values.get("totalmass")
     if mass is not None and not 1 < mass < 1000:
         raise InputError(f"{entries.place('totalmass')}: totalmass = {mass:g} kg, must be between 1 and 1000 kg")
