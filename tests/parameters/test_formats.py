@@ -168,7 +168,8 @@ def test_refusals_of_text_files_name_file_line_and_reason(old, new, says):
     [
         ("  c: 0.0563", "  c: x", "c found 'x'"),
         ("  c: 0.0563", "  c: [1]", "c is a list, must be one value"),
-        ("  c: 0.0563", "  c: *a", "is not valid YAML"),
+        ("  c: 0.0563", "  c: *a", "has a YAML reference"),
+        ("  c: 0.0563", "  c: {", "is not valid YAML"),
         ("  c: 0.0563", "  c: &a 0.0563", "has a YAML reference"),
         ("  c: 0.0563", "  c: 0.0563\n  c: 0.06", "c is given twice"),
         ("parameterization: benchmark", "parameterization: bench", "did you mean benchmark?"),

@@ -8,7 +8,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, TypeVar
 
-from singletrack.errors import InputError, SingletrackError, nearest, unknown_name
+from singletrack.errors import InputError, SingletrackError, unknown_name
 from singletrack.parameters.bicycle import Bicycle
 from singletrack.parameters.symbols import MODEL_SYMBOLS, NAMES, SYMBOLS
 from singletrack.parameters.units import Quantity
@@ -66,8 +66,7 @@ class Entries:
         known = list(known)
         for name in self.quantities:
             if name not in known:
-                near = "" if nearest(name, known) else _nearest_regardless_of_case(name, known)
-                raise InputError(f"{self.place(name)}: {unknown_name(what, name, known)}{near}")
+                raise InputError(f"{self.place(name)}: {unknown_name(what, name, known)}")
 
     def require_equal(self, expected: Mapping[str, float]) -> None:
         """Raise InputError if a dependent value is given and is not what follows from the others."""
@@ -100,11 +99,6 @@ class Entries:
             )
             label = f"{symbol}: " if symbol in self.lines and symbol != parameter else ""
             raise type(error)(f"{self.place(symbol)}: {label}{reason}") from None
-
-
-def _nearest_regardless_of_case(name: str, known: list[str]) -> str:
-    same = [other for other in known if other.lower() == name.lower()]
-    return f"; did you mean {same[0]}?" if same else ""
 
 
 #: Values that follow from the 25 parameters; some files state them all the same.

@@ -113,7 +113,7 @@ def principal_values(bicycle: Bicycle) -> dict[str, float]:
     0.216907
     """
     same = {symbol: float(getattr(bicycle, NAMES[symbol])) for symbol in _SAME}
-    read = {**bicycle.extras, **same}
+    read = {name: value for name, value in bicycle.extras.items() if name in (*_OWN, *_DEPENDENT)} | same
     if all(name in read for name in _OWN):
         derived = _benchmark(read)
         if all(getattr(bicycle, name) == value for name, value in derived.items()):
