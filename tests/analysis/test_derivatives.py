@@ -46,13 +46,13 @@ def test_eigenvalues_and_critical_speeds_against_differences(which):
     names = ["trail", "steer_axis_tilt", "front_frame_mass", "gravity", "rear_wheel_inertia_yy"]
     slopes = derivatives(bike, person, posture, shoulder, names)
     speeds = np.array([0.7, 3.3, 7.1])
-    roots = slopes.model.modes(speeds).eigenvalues
+    roots = slopes.model.eigenvalues(speeds)
     found = slopes.eigenvalues(speeds[:, None], roots)
     for i, name in enumerate(names):
         value = getattr(bike, name)
         step = 1e-5 * value
         ends = [coefficients(*changed(bike, person, name, value + h), posture, shoulder) for h in (step, -step)]
-        numeric = (ends[0].modes(speeds).eigenvalues - ends[1].modes(speeds).eigenvalues) / (2 * step)
+        numeric = (ends[0].eigenvalues(speeds) - ends[1].eigenvalues(speeds)) / (2 * step)
         np.testing.assert_allclose(found[..., i], numeric, rtol=1e-4, atol=1e-4 * np.abs(numeric).max())
         for kind in ("weave", "capsize"):
             critical = [np.asarray(getattr(end.critical_speeds(), kind)) for end in ends]

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from singletrack import InputError, load_bicycle, load_rider
+from singletrack import InputError, coefficients, load_bicycle, load_rider
 from singletrack.analysis.uncertainty import eigenvalue_uncertainty, linear_uncertainty, sample_designs
 from singletrack.parameters.files import read_text
 from singletrack.parameters.measure import measure
@@ -34,8 +34,8 @@ def test_linear_and_sampled_weave_speed_of_the_measured_stratos_agree(shared_dat
 @pytest.mark.parametrize(("name", "posture"), [("stratos", "rigid"), ("stratos", "leaned"), ("browser", "upright")])
 def test_linear_and_sampled_deviations_agree_with_a_rider(name, posture):
     bike, person = measured_like(name), load_rider("rider-a").replace(standard_deviations={"rider_mass": 0.5})
-    if posture == "leaned":
-        # Arms stretched to 99.5 % leave no room for deviations of lengths: lean on a longer arm.
+    if name == "stratos":
+        # Arms stretched to 99.5 % do not reach in a seventh of the designs, which the sample then lacks: longer arms.
         person = person.replace(upper_arm_length=0.30)
     linear = linear_uncertainty(bike, person, posture)
     sampled = sample_designs(bike, person, posture, samples=4000)
@@ -52,10 +52,7 @@ def test_linear_and_sampled_deviations_agree_with_a_rider(name, posture):
 
 def test_one_uncertain_parameter_gives_slope_times_deviation():
     bicycle = load_bicycle("stratos")
-    ends = [bicycle.replace(trail=0.0563 + h).critical_speeds if False else bicycle.replace(trail=0.0563 + h) for h in (1e-5, -1e-5)]
-    from singletrack import coefficients
-
-    speeds = [coefficients(end).critical_speeds().weave[0] for end in ends]
+    speeds = [coefficients(bicycle.replace(trail=0.0563 + h)).critical_speeds().weave[0] for h in (1e-5, -1e-5)]
     slope = (speeds[0] - speeds[1]) / 2e-5
     found = linear_uncertainty(bicycle.replace(standard_deviations={"trail": 0.0016})).critical_speeds()
     assert found.weave_deviation[0] == pytest.approx(abs(slope) * 0.0016, rel=1e-6)
@@ -80,10 +77,12 @@ def test_correlation_matters():
 
 def test_where_roots_meet_the_sample_takes_over():
     bicycle = measured_like()
-    speeds = np.linspace(0.0, 3.0, 121)
+    fine = linear_uncertainty(bicycle).eigenvalues(np.linspace(0.1, 3.0, 5801))
+    meeting = fine.speeds[np.argmax(fine.real_deviation.max(axis=-1))]
+    speeds = np.sort(np.append(np.linspace(0.0, 3.0, 31), meeting))
     joined = eigenvalue_uncertainty(bicycle, speeds=speeds, samples=500)
     straight = linear_uncertainty(bicycle).eigenvalues(speeds)
-    assert 0 < (~joined.linear).sum() < joined.linear.size / 4
+    assert 0 < (~joined.linear).sum() < joined.linear.size / 3
     # At the meeting the linear deviation grows without bound; the joined one stays below the spread of the roots.
     assert straight.real_deviation.max() > 3 * joined.real_deviation.max()
     assert np.isfinite(joined.real_interval).all()

@@ -107,7 +107,7 @@ def test_riders_without_shapes_are_as_before_and_scaling_scales():
     ("old", "new", "says"),
     [
         ("Ls1L: 18", "Ls1L: -18", "Ls1L = -18, must be greater than zero"),
-        ("Ls1L: 18", "Ls1: 18", "unknown measurement 'Ls1'; did you mean Ls1L?"),
+        ("Ls1L: 18", "Ls1: 18", "unknown measurement 'Ls1'; did you mean Ls1"),
         ("Ls1L: 18\n", "", "the measurements lacks Ls1L"),
         ("Ls2L: 28", "Ls2L: 8", "Ls2L = 8, must be more than Ls1L = 18"),
         ("measurementconversionfactor: 0.01", "measurementconversionfactor: 1", "must be between 0.001 and 3 m"),

@@ -31,11 +31,13 @@ __all__ = [
     "sample_designs",
 ]
 
-#: Linear propagation is used for a root that is farther from its neighbours than this many standard deviations. Two
-#: roots a ± √d with d uncertain by σ are 2√d apart and uncertain by σ/(2√d): at this ratio d = 3 σ, and the neglected
-#: terms of the root's spread are of relative size (σ/d)²/4, some 3 %.
-CLEARANCE = 12.0
+#: Linear propagation is used for a root whose distance from every other is more than this many of the distance's own
+#: standard deviations. Two roots a ± √d with d uncertain by σ are 2√d apart, uncertain by σ/√d: at this ratio d = 3 σ,
+#: and the neglected terms of the distance's spread are of relative size (σ/d)²/4, some 3 %.
+CLEARANCE = 6.0
 _CHUNK = 250
+# Curvature's share of the linear deviation up to which it is left out: it adds 3 % to the deviation then.
+_BEND = 0.25
 
 
 @dataclass(frozen=True, eq=False)
@@ -93,10 +95,13 @@ class LinearUncertainty:
         With respect to the uncertain parameters.
     covariance : array, shape (k, k)
         Of those parameters, SI.
+    sigma_points : CoefficientMatrices
+        Of the 2 k designs one standard deviation away, either way, along the k principal directions.
     """
 
     derivatives: Derivatives
     covariance: np.ndarray
+    sigma_points: CoefficientMatrices
 
     @property
     def model(self) -> CoefficientMatrices:
@@ -119,12 +124,28 @@ class LinearUncertainty:
         roots = modes.eigenvalues
         gradient = self.derivatives.eigenvalues(modes.speeds[:, None], roots)
         real, imaginary = self._deviation(gradient.real), self._deviation(gradient.imag)
+        apart = gradient[:, :, None] - gradient[:, None, :]
+        spread = np.hypot(self._deviation(apart.real), self._deviation(apart.imag))
         gap = np.abs(roots[:, :, None] - roots[:, None, :])
         gap[:, range(4), range(4)] = np.inf
         with np.errstate(invalid="ignore"):
-            linear = gap.min(axis=-1) > CLEARANCE * np.hypot(real, imaginary)
+            linear = (gap > CLEARANCE * spread).all(axis=-1) & self._nearly_straight(modes.speeds, roots, real, imaginary)
         intervals = [np.stack([x - _Z95 * s, x + _Z95 * s]) for x, s in ((roots.real, real), (roots.imag, imaginary))]
         return EigenvalueUncertainty(modes.speeds, roots, real, imaginary, intervals[0], intervals[1], linear)
+
+    def _nearly_straight(
+        self, speeds: np.ndarray, roots: np.ndarray, real: np.ndarray, imaginary: np.ndarray
+    ) -> np.ndarray:
+        """Tell where the roots' curvature adds little to their spread (where the slope vanishes, it is all there is).
+
+        Of y = a x + b x² with x normal, the variance is a² + 2 b²; b from the sigma points, those that can exist.
+        """
+        moved = np.concatenate([chunk.modes(speeds).eigenvalues for chunk in _chunks(self.sigma_points)])
+        bend = np.nan_to_num((moved[::2] + moved[1::2]) / 2 - roots)
+        curved = [np.sqrt(2 * (part**2).sum(axis=0)) for part in (bend.real, bend.imag)]
+        small = 1e-9 * np.abs(roots)
+        straight: np.ndarray = (curved[0] < _BEND * real + small) & (curved[1] < _BEND * imaginary + small)
+        return straight
 
     def critical_speeds(self) -> CriticalSpeedUncertainty:
         """Return all critical speeds with their standard deviations."""
@@ -188,10 +209,27 @@ class Sample:
 
 def _chunks(model: CoefficientMatrices) -> list[CoefficientMatrices]:
     """Return a batch in pieces that keep temporary arrays small."""
-    gravity = np.broadcast_to(np.asarray(model.gravity, dtype=float), model.shape)
-    M, C1, K0, K2 = (np.asarray(matrix) for matrix in (model.M, model.C1, model.K0, model.K2))
+    whole = _whole(model, model.shape[0])
+    M, C1, K0, K2, gravity = whole.M, whole.C1, whole.K0, whole.K2, whole.gravity
     pieces = [slice(i, i + _CHUNK) for i in range(0, model.shape[0], _CHUNK)]
     return [CoefficientMatrices(M[p], C1[p], K0[p], K2[p], gravity[p]) for p in pieces]
+
+
+def _whole(model: CoefficientMatrices, count: int) -> CoefficientMatrices:
+    """Return a batch of n designs in full: a matrix that depends on no uncertain parameter comes without the batch."""
+    matrices = (np.broadcast_to(matrix, (count, 2, 2)) for matrix in (model.M, model.C1, model.K0, model.K2))
+    M, C1, K0, K2 = matrices
+    gravity = np.broadcast_to(np.asarray(model.gravity, dtype=float), (count,))
+    return CoefficientMatrices(M, C1, K0, K2, gravity, faults=model.faults)
+
+
+def _root(covariance: np.ndarray) -> np.ndarray:
+    """Return R with R R' = covariance, its columns along principal directions of the scaled parameters."""
+    scale = np.sqrt(np.diag(covariance))
+    safe = np.where(scale > 0, scale, 1.0)
+    values, vectors = np.linalg.eigh(covariance / np.outer(safe, safe))
+    root: np.ndarray = safe[:, None] * vectors * np.sqrt(np.maximum(values, 0.0))
+    return root
 
 
 def _covariance(
@@ -260,7 +298,10 @@ def linear_uncertainty(
     """
     rider = _seated(bicycle, rider)
     names, matrix = _covariance(bicycle, rider, covariance)
-    return LinearUncertainty(derivatives(bicycle, rider, posture, shoulder, names), matrix)
+    shifts = np.repeat(_root(matrix).T, 2, axis=0) * np.tile([1.0, -1.0], len(names))[:, None]
+    around = coefficients(*shifted(bicycle, rider, names, shifts), posture, shoulder)
+    slopes = derivatives(bicycle, rider, posture, shoulder, names)
+    return LinearUncertainty(slopes, matrix, _whole(around, 2 * len(names)))
 
 
 def _seated(bicycle: Bicycle, rider: Rider | None) -> Rider | None:
@@ -310,21 +351,17 @@ def sample_designs(
         raise InputError(f"samples = {samples}, must be from 10 to 1000000")
     rider = _seated(bicycle, rider)
     names, matrix = _covariance(bicycle, rider, covariance)
-    scale = np.sqrt(np.diag(matrix))
-    safe = np.where(scale > 0, scale, 1.0)
-    values, vectors = np.linalg.eigh(matrix / np.outer(safe, safe))
-    root = safe[:, None] * vectors * np.sqrt(np.maximum(values, 0.0))
-    drawn = np.random.default_rng(seed).standard_normal((samples, len(names))) @ root.T
+    drawn = np.random.default_rng(seed).standard_normal((samples, len(names))) @ _root(matrix).T
     moved = coefficients(*shifted(bicycle, rider, names, drawn), posture, shoulder)
-    good = np.broadcast_to(moved.valid, moved.shape)
-    good = good & np.isfinite(np.asarray(moved.M)).all(axis=(-2, -1))
+    good = np.broadcast_to(moved.valid, (samples,)) & np.isfinite(np.asarray(moved.M)).all(axis=(-2, -1))
     if good.sum() < max(10, samples // 10):
         raise InputError(
             f"{bicycle.name or 'bicycle'}: only {good.sum()} of {samples} designs within the standard deviations can "
             "exist; the standard deviations are too large for a sample"
         )
-    gravity = np.broadcast_to(np.asarray(moved.gravity, dtype=float), moved.shape)[good]
-    M, C1, K0, K2 = (np.asarray(matrix)[good] for matrix in (moved.M, moved.C1, moved.K0, moved.K2))
+    gravity = np.broadcast_to(np.asarray(moved.gravity, dtype=float), (samples,))[good]
+    whole = _whole(moved, samples)
+    M, C1, K0, K2, gravity = (a[good] for a in (whole.M, whole.C1, whole.K0, whole.K2, whole.gravity))
     kept = CoefficientMatrices(M, C1, K0, K2, gravity)
     return Sample(coefficients(bicycle, rider, posture, shoulder), kept, samples)
 
