@@ -67,9 +67,7 @@ def test_correlation_matters():
     free, bound = linear_uncertainty(alone), linear_uncertainty(alone, covariance=opposite)
     sampled = sample_designs(alone, covariance=opposite, samples=4000)
     assert bound.matrices()["K0"][0, 0] < free.matrices()["K0"][0, 0]
-    np.testing.assert_allclose(
-        np.asarray(sampled.model.K0)[:, 0, 0].std(), bound.matrices()["K0"][0, 0], rtol=0.05
-    )
+    np.testing.assert_allclose(np.asarray(sampled.model.K0)[:, 0, 0].std(), bound.matrices()["K0"][0, 0], rtol=0.05)
     # Parameters outside the covariance keep their own standard deviations.
     more = linear_uncertainty(bicycle, covariance=opposite)
     assert set(more.derivatives.names) == set(DEVIATIONS)
@@ -137,3 +135,12 @@ def test_other_refusals():
         sample_designs(bicycle, samples=3)
     with pytest.raises(InputError, match="covariance has shape"):
         linear_uncertainty(bicycle, covariance=(("trail",), np.eye(2)))
+
+
+def test_designs_in_which_the_rider_does_not_reach_are_left_out_of_the_sample():
+    # Arms stretched to 99.5 % of their length: some bars within the standard deviations are out of reach.
+    bicycle, rider = measured_like(), load_rider("rider-a")
+    drawn = sample_designs(bicycle, rider, "rigid", samples=400)
+    assert 200 < drawn.model.shape[0] < 400
+    found = eigenvalue_uncertainty(bicycle, rider, speeds=np.linspace(0, 8, 17), samples=400)
+    assert np.isfinite(found.real_deviation).all()

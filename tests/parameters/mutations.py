@@ -64,7 +64,9 @@ def yeadon_measurements():
 def signal():
     import math
 
-    rows = [f"{0.05 * i:.2f},{math.exp(-0.01 * i) * math.sin(0.4 * i) + 0.01 * math.sin(7 * i):.6f}" for i in range(120)]
+    rows = [
+        f"{0.05 * i:.2f},{math.exp(-0.01 * i) * math.sin(0.4 * i) + 0.01 * math.sin(7 * i):.6f}" for i in range(120)
+    ]
     return "time,rate\n" + "\n".join(rows) + "\n"
 
 
@@ -173,7 +175,9 @@ def _monster(rng, data):
 
 def _insert(rng, data):
     place = rng.randrange(len(data))
-    piece = rng.choice(["\u202e", "\ud7ff", "😀", "\x00", "\x0c", "\x85", "=", ":", "#", "'", '"', "\n", "&a ", "!!python/x "])
+    piece = rng.choice(
+        ["\u202e", "\ud7ff", "😀", "\x00", "\x0c", "\x85", "=", ":", "#", "'", '"', "\n", "&a ", "!!python/x "]
+    )
     return data[:place] + piece.encode() + data[place:]
 
 

@@ -95,9 +95,7 @@ def test_principal_radii_invert_the_tensor():
     sin, cos, mass = np.sin(values["alphaH"]), np.cos(values["alphaH"]), values["mH"]
     turned = mass * np.diag([values["kHaa"] ** 2, values["kHbb"] ** 2])
     rotation = np.array([[cos, sin], [-sin, cos]])
-    np.testing.assert_allclose(
-        rotation @ turned @ rotation.T, [[0.17684, -0.02734], [-0.02734, 0.04464]], rtol=1e-12
-    )
+    np.testing.assert_allclose(rotation @ turned @ rotation.T, [[0.17684, -0.02734], [-0.02734, 0.04464]], rtol=1e-12)
 
 
 deviations = st.none() | st.floats(0, 1e3)

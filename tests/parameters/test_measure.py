@@ -110,13 +110,19 @@ def test_the_peers_results_from_the_same_measurements(shared_data):
 @pytest.mark.parametrize("name", MEASURED)
 def test_measured_bicycles_agree_with_table_2(shared_data, name):
     text = (shared_data / "bicycles" / f"{name}Measured.txt").read_text()
-    rows = {row.name: row for row in compare_measured(measure(text, f"{name}Measured.txt").bicycle, load_bicycle(name.lower()))}
+    rows = {
+        row.name: row
+        for row in compare_measured(measure(text, f"{name}Measured.txt").bicycle, load_bicycle(name.lower()))
+    }
     assert len(rows) == 26
     # The one exception: Table 2 prints each wheel's moment about a diameter under the other wheel.
     assert {parameter for parameter, row in rows.items() if not row.agrees} == WHEELS_XX
     assert all("exchanged" in rows[parameter].reason for parameter in WHEELS_XX)
     # Beyond two standard deviations, but equal to the digits printed: radii, known to 0.1 mm and printed to 1 mm.
-    assert {n for n, row in rows.items() if row.agrees and abs(row.ratio) > 2} <= {"rear_wheel_radius", "front_wheel_radius"}
+    assert {n for n, row in rows.items() if row.agrees and abs(row.ratio) > 2} <= {
+        "rear_wheel_radius",
+        "front_wheel_radius",
+    }
 
 
 @pytest.mark.parametrize("name", MEASURED)

@@ -14,9 +14,7 @@ def oscillation(t, period, decay, phase=0.3, offset=0.0, amplitude=1.0):
 
 
 @settings(max_examples=40, deadline=None)
-@given(
-    st.floats(0.3, 4.0), st.floats(0.0, 0.1), st.floats(-3, 3), st.floats(-10, 10), st.floats(1e-3, 1e3)
-)
+@given(st.floats(0.3, 4.0), st.floats(0.0, 0.1), st.floats(-3, 3), st.floats(-10, 10), st.floats(1e-3, 1e3))
 def test_clean_oscillations_are_found_exactly(period, decay, phase, offset, amplitude):
     t = np.linspace(2.0, 22.0, 1001)
     fit = fit_oscillation(t, oscillation(t - 2.0, period, decay, phase, offset, amplitude))

@@ -31,9 +31,7 @@ def test_shipped_records_come_back_from_their_own_text(kind, name):
 
 
 @settings(max_examples=200)
-@given(
-    st.floats(1e-6, 1.5), st.none() | st.floats(0, 1), st.sampled_from(["rad", "m", "kg*m**2", "m/s**2", "kg", ""])
-)
+@given(st.floats(1e-6, 1.5), st.none() | st.floats(0, 1), st.sampled_from(["rad", "m", "kg*m**2", "m/s**2", "kg", ""]))
 def test_any_quantity_reads_back_as_the_same_double(value, deviation, unit):
     text = quantity_text(value, deviation, unit)
     found = parse_quantity(json.loads(text), unit)

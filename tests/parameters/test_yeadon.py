@@ -38,7 +38,8 @@ def in_metres():
 
 
 @pytest.mark.parametrize(
-    ("segment", "of_theirs", "sign"), [("upper_arm", "A1", -1), ("lower_arm", "A2", -1), ("upper_leg", "J1", -1), ("lower_leg", "J2", -1)]
+    ("segment", "of_theirs", "sign"),
+    [("upper_arm", "A1", -1), ("lower_arm", "A2", -1), ("upper_leg", "J1", -1), ("lower_leg", "J2", -1)],
 )
 def test_limbs_have_the_packages_mass_centre_and_inertia(segment, of_theirs, sign):
     rider = read_yeadon(TEXT.replace("totalmass: 80", "# 80"), "me.txt")
@@ -123,7 +124,11 @@ def test_refusals_name_file_line_and_measurement(old, new, says):
 
 @pytest.mark.parametrize(
     ("line", "says"),
-    [("twist: 0.1", "twist = 0.1 rad, must be 0"), ("somersault: 2", "must be between 0 and pi/2"), ("x: 1", "unknown")],
+    [
+        ("twist: 0.1", "twist = 0.1 rad, must be 0"),
+        ("somersault: 2", "must be between 0 and pi/2"),
+        ("x: 1", "unknown"),
+    ],
 )
 def test_configurations_that_do_not_fit_are_refused(line, says):
     base = "" if line.startswith("somersault") else "somersault: 0.2\n"

@@ -129,7 +129,9 @@ class LinearUncertainty:
         gap = np.abs(roots[:, :, None] - roots[:, None, :])
         gap[:, range(4), range(4)] = np.inf
         with np.errstate(invalid="ignore"):
-            linear = (gap > CLEARANCE * spread).all(axis=-1) & self._nearly_straight(modes.speeds, roots, real, imaginary)
+            linear = (gap > CLEARANCE * spread).all(axis=-1) & self._nearly_straight(
+                modes.speeds, roots, real, imaginary
+            )
         intervals = [np.stack([x - _Z95 * s, x + _Z95 * s]) for x, s in ((roots.real, real), (roots.imag, imaginary))]
         return EigenvalueUncertainty(modes.speeds, roots, real, imaginary, intervals[0], intervals[1], linear)
 
