@@ -1,0 +1,32 @@
+"""A multibody engine: from bodies, joints, closed loops and rolling wheels to motion, and to its linearisation."""
+
+from singletrack.multibody.connections import (
+    Closure,
+    CoordinateForce,
+    Force,
+    Sensor,
+    Spring,
+    Torque,
+    Wheel,
+    close_distance,
+    close_joint,
+    close_point,
+)
+from singletrack.multibody.dynamics import Response, accelerations
+from singletrack.multibody.elements import (
+    GROUND,
+    Body,
+    Joint,
+    cylindrical,
+    fixed,
+    free,
+    parameter,
+    parameters,
+    planar,
+    prismatic,
+    revolute,
+    spherical,
+    universal,
+)
+from singletrack.multibody.model import Model, State, assemble, build, move
+from singletrack.multibody.system import System

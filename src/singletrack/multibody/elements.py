@@ -1,0 +1,334 @@
+"""What a machine is made of: bodies and the joints of its tree.
+
+A machine is *drawn* in one configuration, in the frame of the ground (x forward, y right, z down): every point, axis,
+centre of mass and inertia is given there, for all bodies alike. Joint coordinates are zero in the drawing. Loops need
+not close in the drawing: :func:`~singletrack.multibody.assemble` closes them.
+
+Any number may be a :func:`parameter`, whose value is chosen when the model is used, not when it is built.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cache
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+from singletrack.errors import ModelError
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+__all__ = [
+    "GROUND",
+    "Body",
+    "Joint",
+    "Motion",
+    "cylindrical",
+    "fixed",
+    "free",
+    "parameter",
+    "parameters",
+    "planar",
+    "prismatic",
+    "revolute",
+    "spherical",
+    "universal",
+]
+
+GROUND = "ground"
+X, Y, Z = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
+
+Scalar: TypeAlias = Any
+"""A number or a parameter."""
+Vector: TypeAlias = "Sequence[Scalar]"
+"""Three numbers or parameters."""
+
+
+@cache
+def parameter(name: str) -> Scalar:
+    """Return a number that gets its value when the model is used; the same name is the same number.
+
+    >>> parameter("trail")
+    SX(trail)
+    """
+    import casadi  # noqa: PLC0415  # lazy: `import singletrack` stays light
+
+    return casadi.SX.sym(name)
+
+
+def parameters(*names: str) -> tuple[Scalar, ...]:
+    """Return several parameters, one a name.
+
+    >>> parameters("saddle.x", "saddle.z")
+    (SX(saddle.x), SX(saddle.z))
+    """
+    return tuple(parameter(name) for name in names)
+
+
+def is_number(value: Scalar) -> bool:
+    """Tell whether a value is known now (a parameter is not)."""
+    return isinstance(value, (int, float)) or not hasattr(value, "is_constant")
+
+
+def check_number(element: str, quantity: str, value: Scalar, low: float = -math.inf) -> Scalar:
+    """Return a parameter as it is and a number as a float; refuse what is not finite or below ``low``."""
+    if not is_number(value):
+        return value
+    try:
+        number = float(value)
+    except (TypeError, ValueError):
+        raise ModelError(f"{element}: {quantity} must be a number, found {value!r}") from None
+    if not math.isfinite(number) or number < low:
+        allowed = "a finite number" if low == -math.inf else f"a finite number, {low:g} or more"
+        raise ModelError(f"{element}: {quantity} is {value!r}; allowed: {allowed}")
+    return number
+
+
+def check_vector(element: str, quantity: str, value: Vector) -> tuple[Scalar, ...]:
+    """Return three checked numbers."""
+    try:
+        components = tuple(value)
+    except TypeError:
+        components = ()
+    if len(components) != 3:
+        raise ModelError(f"{element}: {quantity} must have three components, found {value!r}")
+    return tuple(check_number(element, quantity, component) for component in components)
+
+
+def check_axis(element: str, quantity: str, value: Vector) -> tuple[Scalar, ...]:
+    """Return a unit vector (a vector of parameters is returned as it is)."""
+    axis = check_vector(element, quantity, value)
+    if not all(is_number(component) for component in axis):
+        return axis
+    length = math.hypot(*axis)
+    if length == 0.0:
+        raise ModelError(f"{element}: {quantity} has no direction: its length is zero")
+    return tuple(component / length for component in axis)
+
+
+@dataclass(frozen=True, eq=False)
+class Body:
+    """A rigid body.
+
+    Parameters
+    ----------
+    name
+        Its name.
+    mass
+        Mass, kg.
+    centre
+        Centre of mass in the drawing, m.
+    inertia
+        (Ixx, Iyy, Izz, Ixy, Iyz, Ixz) about the centre of mass, axes of the drawing, kg m^2; off-diagonal terms are
+        the elements of the inertia matrix.
+
+    Raises
+    ------
+    ModelError
+        For a mass or an inertia that no body can have.
+
+    Examples
+    --------
+    >>> Body("flywheel", 3.0, (0, 0, -0.3), (0.06, 0.12, 0.06)).mass
+    3.0
+    >>> Body("plate", 1.0, inertia=(1.0, 1.0, 3.0))
+    Traceback (most recent call last):
+    ...
+    singletrack.errors.ModelError: body plate: no body has the principal inertias 1, 1, 3 kg m^2 ...
+    """
+
+    name: str
+    mass: Scalar = 0.0
+    centre: Vector = (0.0, 0.0, 0.0)
+    inertia: Sequence[Scalar] = (0.0, 0.0, 0.0)
+
+    def __post_init__(self) -> None:
+        element = f"body {self.name}"
+        object.__setattr__(self, "mass", check_number(element, "mass", self.mass, low=0.0))
+        object.__setattr__(self, "centre", check_vector(element, "centre", self.centre))
+        inertia = tuple(self.inertia)
+        if len(inertia) not in {3, 6}:
+            raise ModelError(f"{element}: inertia must have 3 or 6 components, found {len(inertia)}")
+        inertia = tuple(check_number(element, "inertia", value) for value in inertia + (0.0,) * (6 - len(inertia)))
+        object.__setattr__(self, "inertia", inertia)
+        if all(is_number(value) for value in inertia):
+            _check_inertia(element, inertia)
+
+
+def _check_inertia(element: str, inertia: Sequence[float]) -> None:
+    import numpy as np  # noqa: PLC0415  # lazy
+
+    xx, yy, zz, xy, yz, xz = inertia
+    principal = np.linalg.eigvalsh(np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]))
+    slack = 1e-9 * max(abs(principal))
+    if principal[0] < -slack or principal[2] > principal[0] + principal[1] + slack:
+        found = ", ".join(f"{value:g}" for value in principal)
+        raise ModelError(
+            f"{element}: no body has the principal inertias {found} kg m^2 (none may be negative, "
+            "nor exceed the sum of the others)"
+        )
+
+
+@dataclass(frozen=True, eq=False)
+class Motion:
+    """One degree of freedom of a joint: a translation along or a rotation about an axis, with spring and damper.
+
+    The generalised force is ``preload - stiffness q - damping q'`` (N or N m; stiffness in N/m or N m/rad).
+    """
+
+    name: str
+    rotates: bool
+    axis: Vector
+    stiffness: Scalar = 0.0
+    damping: Scalar = 0.0
+    preload: Scalar = 0.0
+
+
+@dataclass(frozen=True, eq=False)
+class Joint:
+    """A joint of the tree: the child moves relative to the parent by motions in succession, translations first.
+
+    Rotations turn about ``point`` (drawing, m); each later axis is carried along by the earlier ones.
+    """
+
+    name: str
+    parent: str
+    child: str
+    point: Vector
+    motions: tuple[Motion, ...]
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "point", check_vector(f"joint {self.name}", "point", self.point))
+
+    @property
+    def coordinates(self) -> tuple[str, ...]:
+        """The names of its coordinates, in order."""
+        return tuple(motion.name for motion in self.motions)
+
+
+def _joint(
+    name: str,
+    parent: str,
+    child: str,
+    point: Vector,
+    motions: Sequence[tuple[bool, Vector]],
+    defaults: Sequence[str],
+    *,
+    coordinates: Sequence[str] | None = None,
+    stiffness: Any = 0.0,
+    damping: Any = 0.0,
+    preload: Any = 0.0,
+) -> Joint:
+    element, count = f"joint {name}", len(motions)
+    names = tuple(defaults) if coordinates is None else tuple(coordinates)
+    if len(names) != count:
+        raise ModelError(f"{element}: {count} coordinates need {count} names, found {names}")
+
+    def spread(quantity: str, value: Any) -> list[Scalar]:
+        values = list(value) if isinstance(value, (tuple, list)) else [value] * count
+        if len(values) != count:
+            raise ModelError(f"{element}: {quantity} must be one number or {count}, found {len(values)}")
+        return [check_number(element, quantity, number) for number in values]
+
+    laws = zip(spread("stiffness", stiffness), spread("damping", damping), spread("preload", preload), strict=True)
+    return Joint(
+        name,
+        parent,
+        child,
+        point,
+        tuple(
+            Motion(coordinate, rotates, check_axis(element, "axis", axis), *law)
+            for coordinate, (rotates, axis), law in zip(names, motions, laws, strict=True)
+        ),
+    )
+
+
+def fixed(name: str, parent: str, child: str) -> Joint:
+    """Return a joint that lets nothing move.
+
+    >>> fixed("weld", "frame", "rack").coordinates
+    ()
+    """
+    return Joint(name, parent, child, (0.0, 0.0, 0.0), ())
+
+
+def revolute(name: str, parent: str, child: str, point: Vector, axis: Vector, **law: Any) -> Joint:
+    """Return a hinge about ``axis`` through ``point``; its coordinate (rad) has the joint's name.
+
+    ``law`` may set ``stiffness`` (N m/rad), ``damping`` (N m s/rad), ``preload`` (N m) and ``coordinates``.
+
+    >>> revolute("steer", "frame", "fork", (1.1, 0, 0), (0.3, 0, 0.95)).coordinates
+    ('steer',)
+    """
+    return _joint(name, parent, child, point, [(True, axis)], (name,), **law)
+
+
+def prismatic(name: str, parent: str, child: str, axis: Vector, **law: Any) -> Joint:
+    """Return a slider along ``axis``; its coordinate (m) has the joint's name.
+
+    >>> prismatic("seat post", "frame", "saddle", (0, 0, 1), stiffness=1e4).motions[0].stiffness
+    10000.0
+    """
+    return _joint(name, parent, child, (0.0, 0.0, 0.0), [(False, axis)], (name,), **law)
+
+
+def cylindrical(name: str, parent: str, child: str, point: Vector, axis: Vector, **law: Any) -> Joint:
+    """Return a joint that slides along (m) and turns about (rad) one axis.
+
+    >>> cylindrical("tube", "frame", "post", (0, 0, 0), (0, 0, 1)).coordinates
+    ('tube.slide', 'tube.turn')
+    """
+    return _joint(name, parent, child, point, [(False, axis), (True, axis)], (f"{name}.slide", f"{name}.turn"), **law)
+
+
+def universal(
+    name: str, parent: str, child: str, point: Vector, axes: tuple[Vector, Vector], **law: Any
+) -> Joint:
+    """Return a Cardan joint: a turn about the first axis, then about the second, carried along (rad).
+
+    >>> universal("shoulder", "torso", "arm", (0, 0.2, -1), ((0, 1, 0), (0, 0, 1))).coordinates
+    ('shoulder.1', 'shoulder.2')
+    """
+    return _joint(name, parent, child, point, [(True, axis) for axis in axes], (f"{name}.1", f"{name}.2"), **law)
+
+
+def spherical(
+    name: str, parent: str, child: str, point: Vector, axes: tuple[Vector, Vector, Vector] = (Z, X, Y), **law: Any
+) -> Joint:
+    """Return a ball joint: turns about three axes in succession (rad), by default z, x, y.
+
+    The angles are singular where the second turn brings the third axis onto the first.
+
+    >>> spherical("hip", "frame", "torso", (0, 0, -1)).coordinates
+    ('hip.1', 'hip.2', 'hip.3')
+    """
+    names = tuple(f"{name}.{i}" for i in (1, 2, 3))
+    return _joint(name, parent, child, point, [(True, axis) for axis in axes], names, **law)
+
+
+def planar(name: str, parent: str, child: str, point: Vector, normal: Vector, along: Vector, **law: Any) -> Joint:
+    """Return a joint that slides along ``along`` and ``normal x along`` (m) and turns about ``normal`` (rad).
+
+    >>> planar("puck", "ground", "disc", (0, 0, 0), (0, 0, 1), (1, 0, 0)).motions[1].axis
+    (0.0, 1.0, 0.0)
+    """
+    n, a = check_axis(f"joint {name}", "normal", normal), check_axis(f"joint {name}", "along", along)
+    across = (n[1] * a[2] - n[2] * a[1], n[2] * a[0] - n[0] * a[2], n[0] * a[1] - n[1] * a[0])
+    names = (f"{name}.along", f"{name}.across", f"{name}.turn")
+    return _joint(name, parent, child, point, [(False, a), (False, across), (True, n)], names, **law)
+
+
+def free(
+    name: str, parent: str, child: str, point: Vector = (0, 0, 0), axes: Sequence[Vector] = (Z, X, Y), **law: Any
+) -> Joint:
+    """Return six degrees of freedom: x, y, z of ``point`` (m), then turns about three axes in succession (rad).
+
+    With the default axes the turns are yaw, lean and pitch.
+
+    >>> free("frame", GROUND, "rear frame").coordinates
+    ('frame.x', 'frame.y', 'frame.z', 'frame.1', 'frame.2', 'frame.3')
+    """
+    names = tuple(f"{name}.{part}" for part in ("x", "y", "z", "1", "2", "3"))
+    motions = [(False, axis) for axis in (X, Y, Z)] + [(True, axis) for axis in axes]
+    return _joint(name, parent, child, point, motions, names, **law)
