@@ -49,7 +49,7 @@ class Equations:
     bias
         (q, u, f, p) -> h (n,), c (rows,).
     tangent
-        (q, u, a, m, f, p, dq, du) -> the changes of R, C u and C a + c in the direction (dq, du), the latter two
+        (q, u, a, m, f, dq, du, p) -> the changes of R, C u and C a + c in the direction (dq, du), the latter two
         with the rates themselves held.
     input_matrix
         (q, p) -> derivative of -h with respect to the inputs, (n, inputs).

@@ -1,0 +1,335 @@
+"""Exact linearisation about a steady motion, by algorithmic differentiation of the whole constrained system.
+
+Let q0, u0 be a state, a0 its accelerations and m0 its multipliers. Along a change of the independent coordinates the
+dependent ones follow by the gradient of the constraints, ``dq = T_q dq_i``; the speeds follow from ``C du = -d(C u)``
+and the accelerations from ``C da = -d(C a + c)``. Put into the equations of motion with the multipliers held, and
+projected on the allowed speeds T, their change is
+
+    T^T (M da + dR) = T^T df,
+
+because ``T^T C^T = 0`` removes the unknown change of the multipliers, while the term ``d(C^T) m0`` inside dR keeps
+what the loads on curved constraints do (geometric stiffness). All directional derivatives are exact. Coordinates
+that matter to nothing (position, heading, wheel angles) are found and left out, so that steady turning, where they
+grow without bound, has constant coefficients too.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from singletrack.errors import ModelError, unknown_name
+from singletrack.multibody.dynamics import Response, accelerations, input_vector
+from singletrack.multibody.model import State, move, span_of
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+    from singletrack.arrays import Array
+
+__all__ = ["Linearisation", "SpeedPolynomials", "linearise", "speed_polynomials"]
+
+NEGLIGIBLE = 1e-10
+
+
+@dataclass(frozen=True, eq=False)
+class Linearisation:
+    """Small motions about a steady motion: ``M du' + C du + K dq = B df``, ``dq' = N du + G dq``.
+
+    Attributes
+    ----------
+    state
+        The steady motion.
+    coordinates
+        Names of the coordinates q that matter, (k,).
+    speeds
+        Names of the independent speeds u, (m,).
+    inputs, outputs
+        Names of inputs (r,) and outputs (o,).
+    M, C, K, B
+        Mass (m, m), damping-like (m, m), stiffness-like (m, k) and input (m, r) matrices.
+    A_matrix, B_matrix, C_matrix, D_matrix
+        State space of (dq, du), shapes (k + m, k + m), (k + m, r), (o, k + m), (o, r).
+    """
+
+    state: State
+    coordinates: tuple[str, ...]
+    speeds: tuple[str, ...]
+    inputs: tuple[str, ...]
+    outputs: tuple[str, ...]
+    M: Array
+    C: Array
+    K: Array
+    B: Array
+    A_matrix: Array
+    B_matrix: Array
+    C_matrix: Array
+    D_matrix: Array
+
+    def eigenvalues(self) -> Array:
+        """Return the eigenvalues of the state space, 1/s, sorted by real, then imaginary part."""
+        return np.sort_complex(np.linalg.eigvals(self.A_matrix))
+
+    def select(self, names: Sequence[str]) -> tuple[Array, Array, Array, Array]:
+        """Return M, C, K, B of some freedoms that move by themselves, such as lean and steer in straight running.
+
+        Raises
+        ------
+        ModelError
+            Where the freedoms are coupled to the others, or are not both coordinates and speeds here.
+        """
+        for name in names:
+            for what, known in (("speed", self.speeds), ("coordinate", self.coordinates)):
+                if name not in known:
+                    raise ModelError(unknown_name(what, name, known))
+        rows = [self.speeds.index(name) for name in names]
+        columns = [self.coordinates.index(name) for name in names]
+        others = [i for i in range(len(self.speeds)) if i not in rows]
+        rest = [i for i in range(len(self.coordinates)) if i not in columns]
+        for matrix, outside in ((self.M, others), (self.C, others), (self.K, rest)):
+            if np.any(abs(matrix[np.ix_(rows, outside)]) > 1e-8 * np.max(abs(matrix), initial=1.0)):
+                raise ModelError(f"{', '.join(names)}: not decoupled from the other freedoms in this motion")
+        pick = np.ix_(rows, rows)
+        return self.M[pick], self.C[pick], self.K[np.ix_(rows, columns)], self.B[rows]
+
+
+@dataclass(frozen=True, eq=False)
+class _Variations:
+    """Directional derivatives of the motion for directions (dq, du) as columns."""
+
+    span: Array
+    M: Array
+    coordinate_directions: Array
+    K: Array
+    C: Array
+    speed_changes: Array
+
+
+def _change(state: State, response: Response, f: Array, dq: Array, du: Array) -> tuple[Array, Array, Array]:
+    """Return the changes of R, C u and C a + c along one direction."""
+    out = state.model.equations.tangent(
+        state.q, state.u, response.a, response.multipliers, f, dq, du, state.parameters
+    )
+    residual, rate, acceleration = (value.full().ravel() for value in out)
+    return residual, rate, acceleration
+
+
+def _follow(state: State, jacobian: Array, right: Array) -> Array:
+    """Return changes x (n,) with C x = -right and no change of the independent speeds."""
+    parts = state.partition
+    dependent, rows = list(parts.dependent_speeds), list(parts.rows)
+    x = np.zeros(len(state.q))
+    if dependent:
+        x[dependent] = -np.linalg.solve(jacobian[np.ix_(rows, dependent)], right[rows])
+    return x
+
+
+def _coordinate_directions(state: State, jacobian: Array) -> Array:
+    """Return T_q (n, independent coordinates): how the dependent coordinates follow the independent ones."""
+    parts = state.partition
+    dependent, free = list(parts.dependent_coordinates), list(parts.independent_coordinates)
+    directions = np.zeros((len(state.q), len(free)))
+    directions[free, range(len(free))] = 1.0
+    if dependent:
+        gradient = jacobian[list(parts.rows[: parts.holonomic_count])]
+        directions[dependent] = -np.linalg.solve(gradient[:, dependent], gradient[:, free])
+    return directions
+
+
+def _vary(state: State, response: Response, f: Array) -> _Variations:
+    jacobian, mass = state.model.kinetics(state.q, state.parameters)
+    span = span_of(state.partition, jacobian)
+    directions = _coordinate_directions(state, jacobian)
+    zero = np.zeros(len(state.q))
+    stiffness, speed_changes = [], []
+    for dq in directions.T:
+        _, rate, _ = _change(state, response, f, dq, zero)
+        du = _follow(state, jacobian, rate)
+        residual, _, acceleration = _change(state, response, f, dq, du)
+        da = _follow(state, jacobian, acceleration)
+        stiffness.append(span.T @ (residual + mass @ da))
+        speed_changes.append(du)
+    damping = []
+    for du in span.T:
+        residual, _, acceleration = _change(state, response, f, zero, du)
+        da = _follow(state, jacobian, acceleration)
+        damping.append(span.T @ (residual + mass @ da))
+    columns = np.array(speed_changes).reshape(-1, len(zero)).T
+    return _Variations(
+        span, span.T @ mass @ span, directions, np.array(stiffness).T, np.array(damping).T, columns
+    )
+
+
+def _essential(v: _Variations, names: Sequence[str], keep: Sequence[str] | None) -> list[int]:
+    """Return which independent coordinates matter: those that change forces, or the rates of others that do."""
+    if keep is not None:
+        for name in keep:
+            if name not in names:
+                raise ModelError(unknown_name("independent coordinate", name, names))
+        return [names.index(name) for name in keep]
+    scale = max(np.max(abs(v.K), initial=0.0), np.max(abs(v.M), initial=0.0), np.max(abs(v.C), initial=0.0))
+    return [i for i in range(v.K.shape[1]) if np.max(abs(v.K[:, i]), initial=0.0) > NEGLIGIBLE * scale]
+
+
+def linearise(
+    state: State,
+    inputs: Mapping[str, float] | None = None,
+    *,
+    keep: Sequence[str] | None = None,
+    outputs: Sequence[str] | None = None,
+) -> Linearisation:
+    """Linearise the motion about a steady state, exactly.
+
+    Parameters
+    ----------
+    state
+        A steady motion: equilibrium, straight running, steady turning (see :func:`steady_motion`).
+    inputs
+        Constant inputs of the steady motion, by name.
+    keep
+        Names of the coordinates to keep; found automatically where None.
+    outputs
+        Names of coordinates, rates (``"lean'"``) or sensors to observe; by default all coordinates and rates kept.
+
+    Raises
+    ------
+    ModelError
+        Where the state is no steady motion: an independent speed accelerates, or a coordinate that matters moves.
+
+    Examples
+    --------
+    >>> from singletrack.multibody import Body, System, assemble, build, revolute
+    >>> bob = Body("bob", 2.0, (0, 0, 0.5))
+    >>> model = build(System([bob], [revolute("swing", "ground", "bob", (0, 0, 0), (0, 1, 0))]))
+    >>> small = linearise(assemble(model))
+    >>> small.M.tolist(), small.K.tolist()
+    ([[0.5]], [[9.81]])
+    """
+    system = state.model.system
+    response = accelerations(state, inputs)
+    f = input_vector(system, inputs)
+    v = _vary(state, response, f)
+    names = [system.coordinates[i] for i in state.partition.independent_coordinates]
+    kept = _essential(v, names, keep)
+    _refuse_unsteady(state, response, [names[i] for i in kept])
+    drive = v.span.T @ state.model.equations.input_matrix(state.q, state.parameters).full()
+    places = [state.partition.independent_coordinates[i] for i in kept]
+    coordinates, speeds = tuple(names[i] for i in kept), state.freedoms
+    K = v.K[:, kept]
+    rate_of_speeds, rate_of_coordinates = v.span[places], v.speed_changes[np.ix_(places, kept)]
+    solved = np.linalg.solve(v.M, np.hstack([-K, -v.C, drive]))
+    k, m, r = len(kept), len(speeds), drive.shape[1]
+    A = np.block([[rate_of_coordinates, rate_of_speeds], [solved[:, : k + m]]])
+    B = np.vstack([np.zeros((k, r)), solved[:, k + m :]])
+    observed = tuple(outputs) if outputs is not None else (*coordinates, *(f"{name}'" for name in speeds))
+    directions = np.hstack([v.coordinate_directions[:, kept], np.zeros_like(v.span)])
+    speed_directions = np.hstack([v.speed_changes[:, kept], v.span])
+    seen = _observe(state, observed, directions, speed_directions)
+    return Linearisation(
+        state,
+        coordinates,
+        speeds,
+        tuple(given.name for given in system.inputs),
+        observed,
+        v.M,
+        v.C,
+        K,
+        drive,
+        A,
+        B,
+        seen,
+        np.zeros((len(observed), r)),
+    )
+
+
+def _refuse_unsteady(state: State, response: Response, kept: Sequence[str]) -> None:
+    scale = max(1.0, float(np.max(abs(state.u), initial=0.0)) ** 2)
+    for i in state.partition.independent_speeds:
+        if abs(response.a[i]) > 1e-7 * scale:
+            raise ModelError(
+                f"not a steady motion: {state.model.system.coordinates[i]} accelerates by {response.a[i]:.3g}; "
+                "find one with steady_motion"
+            )
+    for name in kept:
+        if abs(state.rate(name)) > 1e-9 * scale:
+            raise ModelError(f"not a steady motion: {name} matters, and changes at the rate {state.rate(name):.3g}")
+
+
+def _observe(state: State, names: Sequence[str], dq: Array, du: Array) -> Array:
+    """Return the derivatives (outputs, directions) of named outputs along directions of coordinates and speeds."""
+    system = state.model.system
+    sensors = [sensor.name for sensor in system.sensors]
+    sensed = np.zeros((len(sensors), dq.shape[1]))
+    if any(name in sensors for name in names):
+        by_q, by_u = _sensor_gradients(state)
+        sensed = by_q @ dq + by_u @ du
+    rows = []
+    for name in names:
+        if name in sensors:
+            rows.append(sensed[sensors.index(name)])
+        elif name.removesuffix("'") in system.coordinates:
+            place = system.coordinates.index(name.removesuffix("'"))
+            rows.append(du[place] if name.endswith("'") else dq[place])
+        else:
+            raise ModelError(unknown_name("output", name, (*system.coordinates, *sensors)))
+    return np.array(rows).reshape(len(names), dq.shape[1])
+
+
+def _sensor_gradients(state: State) -> tuple[Array, Array]:
+    cache: dict[Any, Any] = state.model.cache
+    if "sensor gradients" not in cache:
+        cache["sensor gradients"] = state.model.equations.sensors.jacobian()
+    zero = np.zeros(len(state.model.system.sensors))
+    out = cache["sensor gradients"](state.q, state.u, state.parameters, zero)
+    return out[0].full(), out[1].full()
+
+
+@dataclass(frozen=True, eq=False)
+class SpeedPolynomials:
+    """Straight running at any speed v and gravity g: ``M q'' + (C0 + v C1) q' + (S0 + g K0 + v^2 K2) q = B f``.
+
+    C0 and S0 come from dampers and springs; all matrices are (k, k), B is (k, inputs).
+    """
+
+    M: Array
+    C0: Array
+    C1: Array
+    S0: Array
+    K0: Array
+    K2: Array
+    B: Array
+
+
+def speed_polynomials(upright: State, rolling: Mapping[str, float], names: Sequence[str]) -> SpeedPolynomials:
+    """Return the linearised equations of straight running as exact polynomials in speed and gravity.
+
+    The equations of a machine are quadratic in its speeds and linear in gravity, so the coefficients follow exactly
+    from the linearisations at rest and at unit speed, without and with gravity.
+
+    Parameters
+    ----------
+    upright
+        The machine at rest.
+    rolling
+        Rates of independent speeds at a forward speed of 1 m/s, such as ``{"rear wheel": -1 / radius}``.
+    names
+        The freedoms to keep, such as ``("lean", "steer")``.
+    """
+    weightless = upright.parameters.copy()
+    weightless[0] = 0.0
+    heavy = upright.parameters.copy()
+    heavy[0] = 1.0
+    still = linearise(replace(upright, parameters=weightless), keep=names).select(names)
+    heavy_still = linearise(replace(upright, parameters=heavy), keep=names).select(names)
+    moving = linearise(move(replace(upright, parameters=weightless), rolling), keep=names).select(names)
+    return SpeedPolynomials(
+        M=still[0],
+        C0=still[1],
+        C1=moving[1] - still[1],
+        S0=still[2],
+        K0=heavy_still[2] - still[2],
+        K2=moving[2] - still[2],
+        B=still[3],
+    )
