@@ -30,3 +30,7 @@ from singletrack.multibody.elements import (
 )
 from singletrack.multibody.model import Model, State, assemble, build, move
 from singletrack.multibody.system import System
+from singletrack.multibody.equilibrium import SteadyMotion, steady_motion
+from singletrack.multibody.inputs import Constant, Function, Pulse, Sampled
+from singletrack.multibody.linearise import Linearisation, SpeedPolynomials, linearise, speed_polynomials
+from singletrack.multibody.simulate import Event, simulate

@@ -1,0 +1,121 @@
+"""Results of a simulation as a labelled data set.
+
+Over ``time``: ``q``, ``u``, ``a`` (coordinates, rates, accelerations; dimension ``coordinate``), ``input``,
+``sensor``, ``contact`` (point of each ``wheel`` on the ground, m, dimension ``axis``), ``wheel_force`` (N, on the
+wheel: longitudinal, lateral, normal; the normal force is positive when the wheel presses on the ground),
+``loop_force`` and ``loop_torque`` (N and N m of the first body on the second, in the ground's frame, dimension
+``loop``), ``kinetic_energy``, ``potential_energy``, ``energy`` (J) and ``residual``, the largest violation of a
+constraint on coordinates. ``event_time`` holds the moments of events.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import groupby
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from singletrack.multibody.dynamics import reduced
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    import xarray as xr
+
+    from singletrack.arrays import Array
+    from singletrack.multibody.inputs import Signal
+    from singletrack.multibody.model import State
+
+__all__ = ["Sample", "gather"]
+
+
+@dataclass(frozen=True, eq=False)
+class Sample:
+    """A state at a time (s)."""
+
+    time: float
+    state: State
+
+
+def _responses(samples: Sequence[Sample], inputs: Array) -> tuple[Array, Array]:
+    """Return accelerations (k, n) and multipliers (k, rows) of all samples."""
+    a, multipliers, start = [], [], 0
+    for parts, group in groupby(samples, key=lambda sample: sample.state.partition):
+        states = [sample.state for sample in group]
+        q = np.array([state.q for state in states]).T
+        u_i = np.array([state.u[list(parts.independent_speeds)] for state in states]).T
+        f = inputs[start : start + len(states)].T
+        _, a_part, m_part = reduced(states[0].model, parts)(q, u_i, f, states[0].parameters)
+        a.append(a_part.full().T)
+        multipliers.append(m_part.full().T)
+        start += len(states)
+    return np.vstack(a), np.vstack(multipliers)
+
+
+def _wheel_forces(state: State, multipliers: Array) -> Array:
+    """Return (k, wheels, 3): longitudinal, lateral and normal force on every wheel, N."""
+    system = state.model.system
+    holonomic, wheels = len(system.holonomic_rows), len(system.wheels)
+    normal = -multipliers[:, holonomic - wheels : holonomic]
+    rolling = multipliers[:, holonomic:].reshape(-1, wheels, 2)
+    return np.concatenate([rolling, normal[:, :, None]], axis=2)
+
+
+def _blocks(matrix: Any, count: int, width: int) -> Array:
+    """Return mapped (3, width) results of ``count`` samples as (count, width, 3)."""
+    return matrix.full().T.reshape(count, width, 3)
+
+
+def gather(
+    start: State,
+    driven: Sequence[Signal],
+    times: Array,
+    samples: Sequence[Sample],
+    passages: Sequence[tuple[str, float]],
+) -> xr.Dataset:
+    """Collect the samples of a simulation into a data set (see the module's text)."""
+    import xarray as xr  # noqa: PLC0415  # slow to import
+
+    if not samples or samples[0].time > times[0]:
+        samples = [Sample(float(times[0]), start), *samples]
+    system, equations, p = start.model.system, start.model.equations, start.parameters
+    t = np.array([sample.time for sample in samples])
+    q, u = (np.array([getattr(sample.state, name) for sample in samples]) for name in ("q", "u"))
+    inputs = np.array([[signal(moment) for signal in driven] for moment in t]).reshape(len(t), len(driven))
+    a, multipliers = _responses(samples, inputs)
+    kinetic, potential = (value.full().ravel() for value in equations.energy(q.T, u.T, p))
+    points = equations.contacts(q.T, p)[0]
+    forces, torques = equations.loop_wrenches(q.T, multipliers.T, p)
+    phi = equations.holonomic(q.T, p)[0].full().T
+    wheels, loops = len(system.wheels), len(system.closures)
+    axes = ("time", "loop", "axis")
+    return xr.Dataset(
+        {
+            "q": (("time", "coordinate"), q),
+            "u": (("time", "coordinate"), u),
+            "a": (("time", "coordinate"), a),
+            "input": (("time", "input_name"), inputs),
+            "sensor": (("time", "sensor_name"), equations.sensors(q.T, u.T, p).full().T.reshape(len(t), -1)),
+            "contact": (("time", "wheel", "axis"), _blocks(points, len(t), wheels)),
+            "wheel_force": (("time", "wheel", "component"), _wheel_forces(start, multipliers)),
+            "loop_force": (axes, _blocks(forces, len(t), loops)),
+            "loop_torque": (axes, _blocks(torques, len(t), loops)),
+            "kinetic_energy": ("time", kinetic),
+            "potential_energy": ("time", potential),
+            "energy": ("time", kinetic + potential),
+            "residual": ("time", np.max(abs(phi), axis=1, initial=0.0)),
+            "event_time": ("event", np.array([moment for _, moment in passages], dtype=float)),
+        },
+        coords={
+            "time": t,
+            "coordinate": list(system.coordinates),
+            "input_name": [given.name for given in system.inputs],
+            "sensor_name": [sensor.name for sensor in system.sensors],
+            "wheel": [wheel.name for wheel in system.wheels],
+            "loop": [closure.name for closure in system.closures],
+            "axis": ["x", "y", "z"],
+            "component": ["longitudinal", "lateral", "normal"],
+            "event": np.array([name for name, _ in passages], dtype=str),
+        },
+    )
