@@ -28,9 +28,55 @@ from singletrack.multibody.elements import (
     spherical,
     universal,
 )
-from singletrack.multibody.model import Model, State, assemble, build, move
-from singletrack.multibody.system import System
 from singletrack.multibody.equilibrium import SteadyMotion, steady_motion
 from singletrack.multibody.inputs import Constant, Function, Pulse, Sampled
 from singletrack.multibody.linearise import Linearisation, SpeedPolynomials, linearise, speed_polynomials
+from singletrack.multibody.model import Model, State, assemble, build, move
 from singletrack.multibody.simulate import Event, simulate
+from singletrack.multibody.system import System
+
+__all__ = [
+    "GROUND",
+    "Body",
+    "Closure",
+    "Constant",
+    "CoordinateForce",
+    "Event",
+    "Force",
+    "Function",
+    "Joint",
+    "Linearisation",
+    "Model",
+    "Pulse",
+    "Response",
+    "Sampled",
+    "Sensor",
+    "SpeedPolynomials",
+    "Spring",
+    "State",
+    "SteadyMotion",
+    "System",
+    "Torque",
+    "Wheel",
+    "accelerations",
+    "assemble",
+    "build",
+    "close_distance",
+    "close_joint",
+    "close_point",
+    "cylindrical",
+    "fixed",
+    "free",
+    "linearise",
+    "move",
+    "parameter",
+    "parameters",
+    "planar",
+    "prismatic",
+    "revolute",
+    "simulate",
+    "speed_polynomials",
+    "spherical",
+    "steady_motion",
+    "universal",
+]

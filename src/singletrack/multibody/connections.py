@@ -5,8 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Literal
 
+import numpy as np
+
 from singletrack.errors import ModelError
-from singletrack.multibody.elements import GROUND, check_axis, check_number, check_vector, is_number
+from singletrack.multibody.checks import check_axis, check_number, check_vector, is_number
+from singletrack.multibody.elements import GROUND
 
 if TYPE_CHECKING:
     from singletrack.multibody.elements import Scalar, Vector
@@ -30,8 +33,6 @@ _CLOSING_KINDS = ("fixed", "revolute", "prismatic", "cylindrical", "universal", 
 
 def perpendiculars(axis: tuple[float, ...]) -> tuple[tuple[float, ...], tuple[float, ...]]:
     """Return two unit vectors that complete a unit vector of numbers to a right-handed frame."""
-    import numpy as np  # noqa: PLC0415  # lazy
-
     n = np.array(axis)
     first = np.cross(n, np.eye(3)[np.argmin(abs(n))])
     first /= np.linalg.norm(first)
@@ -78,6 +79,7 @@ def close_point(
     first: str,
     second: str,
     point: Vector,
+    *,
     second_point: Vector | None = None,
     normal: Vector | None = None,
 ) -> Closure:
@@ -97,16 +99,14 @@ def close_point(
     return Closure(name, first, second, point, point if second_point is None else second_point, directions)
 
 
-def close_distance(
-    name: str, first: str, second: str, point: Vector, second_point: Vector, length: Scalar
-) -> Closure:
+def close_distance(name: str, first: str, second: str, points: tuple[Vector, Vector], length: Scalar) -> Closure:
     """Return a loop closed by a massless rod of fixed length (m) between two points.
 
-    >>> close_distance("rod", "crank", "rocker", (0, 0, 0), (1, 0, 0), 1.2).rows
+    >>> close_distance("rod", "crank", "rocker", ((0, 0, 0), (1, 0, 0)), 1.2).rows
     ('rod (distance)',)
     """
     length = check_number(f"loop {name}", "length", length, low=1e-12)
-    return Closure(name, first, second, point, second_point, length=length)
+    return Closure(name, first, second, *points, length=length)
 
 
 def close_joint(
@@ -114,6 +114,7 @@ def close_joint(
     kind: ClosingKind,
     first: str,
     second: str,
+    *,
     point: Vector,
     axis: Vector = (0.0, 0.0, 1.0),
     second_point: Vector | None = None,
@@ -131,7 +132,7 @@ def close_joint(
 
     Examples
     --------
-    >>> len(close_joint("hinge", "revolute", "last", "first", (0, 0, 0), (0, 0, 1)).rows)
+    >>> len(close_joint("hinge", "revolute", "last", "first", point=(0, 0, 0), axis=(0, 0, 1)).rows)
     5
     """
     element = f"loop {name}"
@@ -142,7 +143,7 @@ def close_joint(
     if not all(is_number(c) for c in (*axis, *second_axis)):
         raise ModelError(f"{element}: the axes of a closing joint must be numbers")
     across = perpendiculars(axis)
-    closure = close_point(name, first, second, point, second_point)
+    closure = close_point(name, first, second, point, second_point=second_point)
     parallel = tuple((direction, second_axis) for direction in across)
     keyed = (*parallel, (across[0], perpendiculars(second_axis)[1]))
     if kind == "universal":
@@ -163,8 +164,8 @@ class Wheel:
     name, body
         Its name, and the body that turns with it.
     centre, axle
-        Centre (m) and axle in the drawing; the axle points to the right of the way it rolls for a positive turn
-        to roll backwards (right-hand rule about y).
+        Centre (m) and axle in the drawing. The longitudinal direction is axle x down: forward for an axle to the
+        right, about which a wheel that rolls forward turns by a negative angle.
     radius, crown
         Radii, m.
     """

@@ -26,9 +26,7 @@ def closure_residual(closure: Closure, frames: Mapping[str, Frame]) -> SX:
     if closure.length is not None:
         return ca.norm_2(apart) - closure.length
     rows = [ca.dot(first.rotation @ column(direction), apart) for direction in closure.directions]
-    rows += [
-        ca.dot(first.rotation @ column(one), second.rotation @ column(other)) for one, other in closure.orthogonal
-    ]
+    rows += [ca.dot(first.rotation @ column(one), second.rotation @ column(other)) for one, other in closure.orthogonal]
     return ca.vertcat(*rows)
 
 

@@ -9,6 +9,7 @@ import casadi as ca
 import numpy as np
 
 from singletrack.errors import ModelError, unknown_name
+from singletrack.multibody.model import span_of
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -19,6 +20,8 @@ if TYPE_CHECKING:
     from singletrack.multibody.system import System
 
 __all__ = ["Response", "accelerations", "reduced"]
+
+MASSLESS = 1e-13
 
 
 @dataclass(frozen=True, eq=False)
@@ -91,6 +94,11 @@ def _reduced(model: Model, parts: Partition) -> ca.Function:
 def accelerations(state: State, inputs: Mapping[str, float] | None = None) -> Response:
     """Return the accelerations and constraint forces of a state under constant inputs.
 
+    Raises
+    ------
+    ModelError
+        Where a freedom has no mass, or the joint angles are singular (gimbal lock).
+
     Examples
     --------
     >>> from singletrack.multibody import Body, System, assemble, build, revolute
@@ -100,13 +108,25 @@ def accelerations(state: State, inputs: Mapping[str, float] | None = None) -> Re
     -2.4525
     """
     f = input_vector(state.model.system, inputs)
+    _refuse_massless(state)
     function = reduced(state.model, state.partition)
     ui = state.u[list(state.partition.independent_speeds)]
     _, a, multipliers = function(state.q, ui, f, state.parameters)
     a, multipliers = a.full().ravel(), multipliers.full().ravel()
-    if not np.all(np.isfinite(a)):
-        raise ModelError(
-            "the accelerations are not determined: a freedom has no mass, or the joint angles are singular here "
-            f"(independent speeds: {', '.join(state.freedoms)})"
-        )
     return Response(a, multipliers)
+
+
+def _refuse_massless(state: State) -> None:
+    """Refuse a state in which some independent speed, or a combination of them, moves no mass."""
+    jacobian, mass = state.model.kinetics(state.q, state.parameters)
+    span = span_of(state.partition, jacobian)
+    carried = span.T @ mass @ span
+    size = np.sqrt(np.diag(carried))
+    if not len(size):
+        return
+    if np.all(size > 0.0) and np.linalg.eigvalsh(carried / np.outer(size, size))[0] > MASSLESS:
+        return
+    raise ModelError(
+        "the accelerations are not determined: a freedom has no mass, or the joint angles are singular here "
+        f"(independent speeds: {', '.join(state.freedoms)})"
+    )

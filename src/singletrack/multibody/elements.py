@@ -9,12 +9,14 @@ Any number may be a :func:`parameter`, whose value is chosen when the model is u
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from functools import cache
 from typing import TYPE_CHECKING, Any, TypeAlias
 
+import casadi as ca
+
 from singletrack.errors import ModelError
+from singletrack.multibody.checks import check_axis, check_inertia, check_number, check_vector, is_number
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -52,9 +54,7 @@ def parameter(name: str) -> Scalar:
     >>> parameter("trail")
     SX(trail)
     """
-    import casadi  # noqa: PLC0415  # lazy: `import singletrack` stays light
-
-    return casadi.SX.sym(name)
+    return ca.SX.sym(name)
 
 
 def parameters(*names: str) -> tuple[Scalar, ...]:
@@ -64,47 +64,6 @@ def parameters(*names: str) -> tuple[Scalar, ...]:
     (SX(saddle.x), SX(saddle.z))
     """
     return tuple(parameter(name) for name in names)
-
-
-def is_number(value: Scalar) -> bool:
-    """Tell whether a value is known now (a parameter is not)."""
-    return isinstance(value, (int, float)) or not hasattr(value, "is_constant")
-
-
-def check_number(element: str, quantity: str, value: Scalar, low: float = -math.inf) -> Scalar:
-    """Return a parameter as it is and a number as a float; refuse what is not finite or below ``low``."""
-    if not is_number(value):
-        return value
-    try:
-        number = float(value)
-    except (TypeError, ValueError):
-        raise ModelError(f"{element}: {quantity} must be a number, found {value!r}") from None
-    if not math.isfinite(number) or number < low:
-        allowed = "a finite number" if low == -math.inf else f"a finite number, {low:g} or more"
-        raise ModelError(f"{element}: {quantity} is {value!r}; allowed: {allowed}")
-    return number
-
-
-def check_vector(element: str, quantity: str, value: Vector) -> tuple[Scalar, ...]:
-    """Return three checked numbers."""
-    try:
-        components = tuple(value)
-    except TypeError:
-        components = ()
-    if len(components) != 3:
-        raise ModelError(f"{element}: {quantity} must have three components, found {value!r}")
-    return tuple(check_number(element, quantity, component) for component in components)
-
-
-def check_axis(element: str, quantity: str, value: Vector) -> tuple[Scalar, ...]:
-    """Return a unit vector (a vector of parameters is returned as it is)."""
-    axis = check_vector(element, quantity, value)
-    if not all(is_number(component) for component in axis):
-        return axis
-    length = math.hypot(*axis)
-    if length == 0.0:
-        raise ModelError(f"{element}: {quantity} has no direction: its length is zero")
-    return tuple(component / length for component in axis)
 
 
 @dataclass(frozen=True, eq=False)
@@ -153,21 +112,7 @@ class Body:
         inertia = tuple(check_number(element, "inertia", value) for value in inertia + (0.0,) * (6 - len(inertia)))
         object.__setattr__(self, "inertia", inertia)
         if all(is_number(value) for value in inertia):
-            _check_inertia(element, inertia)
-
-
-def _check_inertia(element: str, inertia: Sequence[float]) -> None:
-    import numpy as np  # noqa: PLC0415  # lazy
-
-    xx, yy, zz, xy, yz, xz = inertia
-    principal = np.linalg.eigvalsh(np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]))
-    slack = 1e-9 * max(abs(principal))
-    if principal[0] < -slack or principal[2] > principal[0] + principal[1] + slack:
-        found = ", ".join(f"{value:g}" for value in principal)
-        raise ModelError(
-            f"{element}: no body has the principal inertias {found} kg m^2 (none may be negative, "
-            "nor exceed the sum of the others)"
-        )
+            check_inertia(element, inertia)
 
 
 @dataclass(frozen=True, eq=False)
@@ -213,8 +158,8 @@ def _joint(
     child: str,
     point: Vector,
     motions: Sequence[tuple[bool, Vector]],
-    defaults: Sequence[str],
     *,
+    defaults: Sequence[str],
     coordinates: Sequence[str] | None = None,
     stiffness: Any = 0.0,
     damping: Any = 0.0,
@@ -261,7 +206,7 @@ def revolute(name: str, parent: str, child: str, point: Vector, axis: Vector, **
     >>> revolute("steer", "frame", "fork", (1.1, 0, 0), (0.3, 0, 0.95)).coordinates
     ('steer',)
     """
-    return _joint(name, parent, child, point, [(True, axis)], (name,), **law)
+    return _joint(name, parent, child, point, [(True, axis)], defaults=(name,), **law)
 
 
 def prismatic(name: str, parent: str, child: str, axis: Vector, **law: Any) -> Joint:
@@ -270,7 +215,7 @@ def prismatic(name: str, parent: str, child: str, axis: Vector, **law: Any) -> J
     >>> prismatic("seat post", "frame", "saddle", (0, 0, 1), stiffness=1e4).motions[0].stiffness
     10000.0
     """
-    return _joint(name, parent, child, (0.0, 0.0, 0.0), [(False, axis)], (name,), **law)
+    return _joint(name, parent, child, (0.0, 0.0, 0.0), [(False, axis)], defaults=(name,), **law)
 
 
 def cylindrical(name: str, parent: str, child: str, point: Vector, axis: Vector, **law: Any) -> Joint:
@@ -279,18 +224,20 @@ def cylindrical(name: str, parent: str, child: str, point: Vector, axis: Vector,
     >>> cylindrical("tube", "frame", "post", (0, 0, 0), (0, 0, 1)).coordinates
     ('tube.slide', 'tube.turn')
     """
-    return _joint(name, parent, child, point, [(False, axis), (True, axis)], (f"{name}.slide", f"{name}.turn"), **law)
+    return _joint(
+        name, parent, child, point, [(False, axis), (True, axis)], defaults=(f"{name}.slide", f"{name}.turn"), **law
+    )
 
 
-def universal(
-    name: str, parent: str, child: str, point: Vector, axes: tuple[Vector, Vector], **law: Any
-) -> Joint:
+def universal(name: str, parent: str, child: str, point: Vector, axes: tuple[Vector, Vector], **law: Any) -> Joint:
     """Return a Cardan joint: a turn about the first axis, then about the second, carried along (rad).
 
     >>> universal("shoulder", "torso", "arm", (0, 0.2, -1), ((0, 1, 0), (0, 0, 1))).coordinates
     ('shoulder.1', 'shoulder.2')
     """
-    return _joint(name, parent, child, point, [(True, axis) for axis in axes], (f"{name}.1", f"{name}.2"), **law)
+    return _joint(
+        name, parent, child, point, [(True, axis) for axis in axes], defaults=(f"{name}.1", f"{name}.2"), **law
+    )
 
 
 def spherical(
@@ -304,19 +251,19 @@ def spherical(
     ('hip.1', 'hip.2', 'hip.3')
     """
     names = tuple(f"{name}.{i}" for i in (1, 2, 3))
-    return _joint(name, parent, child, point, [(True, axis) for axis in axes], names, **law)
+    return _joint(name, parent, child, point, [(True, axis) for axis in axes], defaults=names, **law)
 
 
-def planar(name: str, parent: str, child: str, point: Vector, normal: Vector, along: Vector, **law: Any) -> Joint:
+def planar(name: str, parent: str, child: str, point: Vector, *, normal: Vector, along: Vector, **law: Any) -> Joint:
     """Return a joint that slides along ``along`` and ``normal x along`` (m) and turns about ``normal`` (rad).
 
-    >>> planar("puck", "ground", "disc", (0, 0, 0), (0, 0, 1), (1, 0, 0)).motions[1].axis
+    >>> planar("puck", "ground", "disc", (0, 0, 0), normal=(0, 0, 1), along=(1, 0, 0)).motions[1].axis
     (0.0, 1.0, 0.0)
     """
     n, a = check_axis(f"joint {name}", "normal", normal), check_axis(f"joint {name}", "along", along)
     across = (n[1] * a[2] - n[2] * a[1], n[2] * a[0] - n[0] * a[2], n[0] * a[1] - n[1] * a[0])
     names = (f"{name}.along", f"{name}.across", f"{name}.turn")
-    return _joint(name, parent, child, point, [(False, a), (False, across), (True, n)], names, **law)
+    return _joint(name, parent, child, point, [(False, a), (False, across), (True, n)], defaults=names, **law)
 
 
 def free(
@@ -331,4 +278,4 @@ def free(
     """
     names = tuple(f"{name}.{part}" for part in ("x", "y", "z", "1", "2", "3"))
     motions = [(False, axis) for axis in (X, Y, Z)] + [(True, axis) for axis in axes]
-    return _joint(name, parent, child, point, motions, names, **law)
+    return _joint(name, parent, child, point, motions, defaults=names, **law)

@@ -9,20 +9,20 @@ import numpy as np
 
 from singletrack.errors import ModelError, unknown_name
 from singletrack.multibody.dynamics import accelerations, input_vector
-from singletrack.multibody.linearise import _vary
 from singletrack.multibody.model import State, assemble, close, span_of
+from singletrack.multibody.variations import vary
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
     from singletrack.arrays import Array
-    from singletrack.multibody.linearise import _Variations
     from singletrack.multibody.model import Model
+    from singletrack.multibody.variations import Variations
 
 __all__ = ["SteadyMotion", "steady_motion"]
 
 STEPS = 60
-STEADY = 1e-11
+STEADY = 1e-10
 
 
 @dataclass(frozen=True, eq=False)
@@ -84,7 +84,7 @@ def steady_motion(
     >>> bob = Body("bob", 1.0, (0, 0, 1))
     >>> swing = revolute("swing", "ground", "bob", (0, 0, 0), (0, 1, 0), stiffness=9.81, preload=9.81)
     >>> found = steady_motion(build(System([bob], [swing])), resting=["swing"], guess={"swing": 0.4})
-    >>> round(found.state["swing"] + np.sin(found.state["swing"]), 12)
+    >>> round(float(found.state["swing"] + np.sin(found.state["swing"])), 12)
     1.0
     """
     given = dict(coordinates or {})
@@ -93,14 +93,17 @@ def steady_motion(
     u_i = np.array([(rates or {}).get(n, (guess_rates or {}).get(n, 0.0)) for n in start.freedoms])
     f = input_vector(model.system, inputs)
     state = _with_speeds(start, start.q, u_i)
+    last = np.inf
     for _ in range(STEPS):
         response, residual, variations = _residual(state, f, search)
-        if float(np.max(abs(residual), initial=0.0)) <= STEADY * max(1.0, float(np.max(abs(response)))):
+        left = float(np.max(abs(residual), initial=0.0)) / max(1.0, float(np.max(abs(response))))
+        last, better = left, left < 0.5 * last
+        if left <= STEADY and not better:
             names = [given_input.name for given_input in model.system.inputs]
             return SteadyMotion(state, dict(zip(names, f.tolist(), strict=True)))
         state, f = _step(state, f, search, residual, variations)
-    names = ", ".join(f"{n}'" for n in state.freedoms)
-    raise ModelError(f"no steady motion found near the guess: {names} still change by {residual[: len(u_i)]}")
+    free = ", ".join(f"{n}'" for n in state.freedoms)
+    raise ModelError(f"no steady motion found near the guess: {free} still change by {residual[: len(u_i)]}")
 
 
 def _plan(
@@ -131,16 +134,16 @@ def _with_speeds(state: State, q: Array, u_i: Array) -> State:
     return State(state.model, state.parameters, state.partition, q, span_of(state.partition, jacobian) @ u_i)
 
 
-def _residual(state: State, f: Array, search: _Search) -> tuple[Array, Array, _Variations]:
+def _residual(state: State, f: Array, search: _Search) -> tuple[Array, Array, Variations]:
     """Return all accelerations, what must vanish (independent accelerations, rates at rest) and the derivatives."""
     names = [given.name for given in state.model.system.inputs]
     response = accelerations(state, dict(zip(names, f.tolist(), strict=True)))
     independent = list(state.partition.independent_speeds)
     residual = np.concatenate([response.a[independent], state.u[search.resting]])
-    return response.a, residual, _vary(state, response, f)
+    return response.a, residual, vary(state, response, f)
 
 
-def _step(state: State, f: Array, search: _Search, residual: Array, v: _Variations) -> tuple[State, Array]:
+def _step(state: State, f: Array, search: _Search, residual: Array, v: Variations) -> tuple[State, Array]:
     drive = v.span.T @ state.model.equations.input_matrix(state.q, state.parameters).full()
     k, s = search.coordinates, search.speeds
     moved = np.linalg.solve(v.M, np.hstack([-v.K[:, k], -v.C[:, s], drive[:, search.inputs]]))

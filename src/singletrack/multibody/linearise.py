@@ -1,16 +1,8 @@
-"""Exact linearisation about a steady motion, by algorithmic differentiation of the whole constrained system.
+"""Exact linearisation about a steady motion: matrices, state space, and polynomials in speed.
 
-Let q0, u0 be a state, a0 its accelerations and m0 its multipliers. Along a change of the independent coordinates the
-dependent ones follow by the gradient of the constraints, ``dq = T_q dq_i``; the speeds follow from ``C du = -d(C u)``
-and the accelerations from ``C da = -d(C a + c)``. Put into the equations of motion with the multipliers held, and
-projected on the allowed speeds T, their change is
-
-    T^T (M da + dR) = T^T df,
-
-because ``T^T C^T = 0`` removes the unknown change of the multipliers, while the term ``d(C^T) m0`` inside dR keeps
-what the loads on curved constraints do (geometric stiffness). All directional derivatives are exact. Coordinates
-that matter to nothing (position, heading, wheel angles) are found and left out, so that steady turning, where they
-grow without bound, has constant coefficients too.
+The derivation is in :mod:`singletrack.multibody.variations`. Coordinates that matter to nothing (position, heading,
+wheel angles) are found and left out, so that steady turning, where they grow without bound, has constant
+coefficients too.
 """
 
 from __future__ import annotations
@@ -21,13 +13,16 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from singletrack.errors import ModelError, unknown_name
-from singletrack.multibody.dynamics import Response, accelerations, input_vector
-from singletrack.multibody.model import State, move, span_of
+from singletrack.multibody.dynamics import accelerations, input_vector
+from singletrack.multibody.model import State, move
+from singletrack.multibody.variations import vary
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
     from singletrack.arrays import Array
+    from singletrack.multibody.dynamics import Response
+    from singletrack.multibody.variations import Variations
 
 __all__ = ["Linearisation", "SpeedPolynomials", "linearise", "speed_polynomials"]
 
@@ -95,74 +90,7 @@ class Linearisation:
         return self.M[pick], self.C[pick], self.K[np.ix_(rows, columns)], self.B[rows]
 
 
-@dataclass(frozen=True, eq=False)
-class _Variations:
-    """Directional derivatives of the motion for directions (dq, du) as columns."""
-
-    span: Array
-    M: Array
-    coordinate_directions: Array
-    K: Array
-    C: Array
-    speed_changes: Array
-
-
-def _change(state: State, response: Response, f: Array, dq: Array, du: Array) -> tuple[Array, Array, Array]:
-    """Return the changes of R, C u and C a + c along one direction."""
-    out = state.model.equations.tangent(
-        state.q, state.u, response.a, response.multipliers, f, dq, du, state.parameters
-    )
-    residual, rate, acceleration = (value.full().ravel() for value in out)
-    return residual, rate, acceleration
-
-
-def _follow(state: State, jacobian: Array, right: Array) -> Array:
-    """Return changes x (n,) with C x = -right and no change of the independent speeds."""
-    parts = state.partition
-    dependent, rows = list(parts.dependent_speeds), list(parts.rows)
-    x = np.zeros(len(state.q))
-    if dependent:
-        x[dependent] = -np.linalg.solve(jacobian[np.ix_(rows, dependent)], right[rows])
-    return x
-
-
-def _coordinate_directions(state: State, jacobian: Array) -> Array:
-    """Return T_q (n, independent coordinates): how the dependent coordinates follow the independent ones."""
-    parts = state.partition
-    dependent, free = list(parts.dependent_coordinates), list(parts.independent_coordinates)
-    directions = np.zeros((len(state.q), len(free)))
-    directions[free, range(len(free))] = 1.0
-    if dependent:
-        gradient = jacobian[list(parts.rows[: parts.holonomic_count])]
-        directions[dependent] = -np.linalg.solve(gradient[:, dependent], gradient[:, free])
-    return directions
-
-
-def _vary(state: State, response: Response, f: Array) -> _Variations:
-    jacobian, mass = state.model.kinetics(state.q, state.parameters)
-    span = span_of(state.partition, jacobian)
-    directions = _coordinate_directions(state, jacobian)
-    zero = np.zeros(len(state.q))
-    stiffness, speed_changes = [], []
-    for dq in directions.T:
-        _, rate, _ = _change(state, response, f, dq, zero)
-        du = _follow(state, jacobian, rate)
-        residual, _, acceleration = _change(state, response, f, dq, du)
-        da = _follow(state, jacobian, acceleration)
-        stiffness.append(span.T @ (residual + mass @ da))
-        speed_changes.append(du)
-    damping = []
-    for du in span.T:
-        residual, _, acceleration = _change(state, response, f, zero, du)
-        da = _follow(state, jacobian, acceleration)
-        damping.append(span.T @ (residual + mass @ da))
-    columns = np.array(speed_changes).reshape(-1, len(zero)).T
-    return _Variations(
-        span, span.T @ mass @ span, directions, np.array(stiffness).T, np.array(damping).T, columns
-    )
-
-
-def _essential(v: _Variations, names: Sequence[str], keep: Sequence[str] | None) -> list[int]:
+def _essential(v: Variations, names: Sequence[str], keep: Sequence[str] | None) -> list[int]:
     """Return which independent coordinates matter: those that change forces, or the rates of others that do."""
     if keep is not None:
         for name in keep:
@@ -210,7 +138,7 @@ def linearise(
     system = state.model.system
     response = accelerations(state, inputs)
     f = input_vector(system, inputs)
-    v = _vary(state, response, f)
+    v = vary(state, response, f)
     names = [system.coordinates[i] for i in state.partition.independent_coordinates]
     kept = _essential(v, names, keep)
     _refuse_unsteady(state, response, [names[i] for i in kept])

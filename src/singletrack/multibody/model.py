@@ -120,12 +120,14 @@ def build(system: System) -> Model:
     return Model(system, derive(system))
 
 
-def _blame(model: Model, q: Array, p: Array, gradient: Array, phi: Array) -> ModelError:
+def _blame(model: Model, q: Array, gradient: Array, phi: Array) -> ModelError:
     """Return the error for constraints that could not be satisfied, naming the worst."""
     names = model.system.holonomic_rows
     worst = int(np.argmax(abs(phi)))
     if not np.any(gradient[worst]):
-        return ModelError(f"{names[worst]}: a constraint that cannot vary: no coordinate changes it from {phi[worst]:g}")
+        return ModelError(
+            f"{names[worst]}: a constraint that cannot vary: no coordinate changes it from {phi[worst]:g}"
+        )
     return ModelError(
         f"{names[worst]}: the loop cannot close; the nearest configuration found leaves {phi[worst]:.3g} "
         f"(coordinates {', '.join(f'{n} {v:.4g}' for n, v in zip(model.system.coordinates, q, strict=True))})"
@@ -160,7 +162,7 @@ def close(model: Model, q: Array, p: Array, movable: Sequence[int]) -> Array:
             break
         q, phi, gradient = trial, phi_trial, gradient_trial
     if not float(np.max(abs(phi), initial=0.0)) <= CLOSED * 10 * max(1.0, float(np.max(abs(q), initial=0.0))):
-        raise _blame(model, q, p, gradient, phi)
+        raise _blame(model, q, gradient, phi)
     return q
 
 
@@ -197,7 +199,7 @@ def assemble(
     >>> from singletrack.multibody import Body, System, close_distance, revolute
     >>> hinges = [revolute("a", "ground", "one", (0, 0, 0), (0, 1, 0)), revolute("b", "ground", "two", (1, 0, 0),
     ...           (0, 1, 0))]
-    >>> rod = close_distance("rod", "one", "two", (0, 0, -1), (1, 0, -1), 1.0)
+    >>> rod = close_distance("rod", "one", "two", ((0, 0, -1), (1, 0, -1)), 1.0)
     >>> model = build(System([Body("one", 1.0), Body("two", 1.0)], hinges, [rod]))
     >>> round(assemble(model, {"a": 0.3})["b"], 12)
     0.3

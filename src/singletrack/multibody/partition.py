@@ -84,9 +84,7 @@ def _normalised(matrix: np.ndarray[Any, Any]) -> np.ndarray[Any, Any]:
     return matrix / np.where(size > 0.0, size, 1.0)
 
 
-def partition(
-    system: System, jacobian: np.ndarray[Any, Any], independent: Sequence[str] | None = None
-) -> Partition:
+def partition(system: System, jacobian: np.ndarray[Any, Any], independent: Sequence[str] | None = None) -> Partition:
     """Choose independent coordinates and speeds for a constraint Jacobian (rows, n).
 
     Parameters
@@ -123,9 +121,11 @@ def partition(
     coordinates = _pivots(scaled[:count], candidates)
     if wanted is None:
         # dependent coordinates stay dependent as speeds; the rolling rows then choose among the others
-        reduced = scaled[count:] - scaled[count:][:, coordinates] @ np.linalg.lstsq(
-            scaled[:count][:, coordinates], scaled[:count], rcond=None
-        )[0]
+        reduced = (
+            scaled[count:]
+            - scaled[count:][:, coordinates]
+            @ np.linalg.lstsq(scaled[:count][:, coordinates], scaled[:count], rcond=None)[0]
+        )
         others = [i for i in candidates if i not in coordinates]
         speeds = sorted(coordinates + _pivots(reduced, others))
     else:

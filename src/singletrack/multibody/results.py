@@ -58,7 +58,7 @@ def _wheel_forces(state: State, multipliers: Array) -> Array:
     system = state.model.system
     holonomic, wheels = len(system.holonomic_rows), len(system.wheels)
     normal = -multipliers[:, holonomic - wheels : holonomic]
-    rolling = multipliers[:, holonomic:].reshape(-1, wheels, 2)
+    rolling = multipliers[:, holonomic:].reshape(len(multipliers), wheels, 2)
     return np.concatenate([rolling, normal[:, :, None]], axis=2)
 
 
@@ -96,7 +96,10 @@ def gather(
             "u": (("time", "coordinate"), u),
             "a": (("time", "coordinate"), a),
             "input": (("time", "input_name"), inputs),
-            "sensor": (("time", "sensor_name"), equations.sensors(q.T, u.T, p).full().T.reshape(len(t), -1)),
+            "sensor": (
+                ("time", "sensor_name"),
+                equations.sensors(q.T, u.T, p).full().T.reshape(len(t), len(system.sensors)),
+            ),
             "contact": (("time", "wheel", "axis"), _blocks(points, len(t), wheels)),
             "wheel_force": (("time", "wheel", "component"), _wheel_forces(start, multipliers)),
             "loop_force": (axes, _blocks(forces, len(t), loops)),

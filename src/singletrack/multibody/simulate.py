@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -10,7 +11,7 @@ import numpy as np
 from singletrack.errors import ModelError, unknown_name
 from singletrack.multibody.dynamics import reduced
 from singletrack.multibody.inputs import signals
-from singletrack.multibody.model import State, close
+from singletrack.multibody.model import State
 from singletrack.multibody.partition import partition
 from singletrack.multibody.results import Sample, gather
 
@@ -24,8 +25,7 @@ if TYPE_CHECKING:
 
 __all__ = ["Event", "simulate"]
 
-CHECK_EVERY = 5
-WORSE = 1e3
+WORSE = 30.0
 SINGULAR = 1e10
 
 
@@ -125,7 +125,7 @@ def simulate(
     run = _Run(state, driven, events, times, options, getattr(scipy.integrate, method))
     breaks = {b for signal in driven for b in signal.breaks if times[0] < b < times[-1]}
     edges = [times[0], *sorted(breaks), times[-1]]
-    for start, stop in zip(edges[:-1], edges[1:], strict=True):
+    for start, stop in pairwise(edges):
         if not run.ended:
             _segment(run, start, stop)
     return gather(state, driven, times, run.samples, run.passages)
@@ -136,13 +136,14 @@ def _right_side(run: _Run, start: float, stop: float) -> Callable[[float, Array]
     state = run.state
     n, free = len(state.q), list(state.partition.independent_speeds)
     function = reduced(state.model, state.partition)
+    buffer: Any
     buffer, evaluate = function.buffer()
     q, u_i, f = np.empty(n), np.empty(len(free)), np.empty(len(run.signals))
     u, a, multipliers = np.empty(n), np.empty(n), np.empty(len(state.model.system.rows))
     for i, given in enumerate((q, u_i, f, state.parameters)):
-        buffer.set_arg(i, memoryview(given))
+        buffer.set_arg(i, memoryview(given.data))
     for i, result in enumerate((u, a, multipliers)):
-        buffer.set_res(i, memoryview(result))
+        buffer.set_res(i, memoryview(result.data))
     low, high = np.nextafter(start, np.inf), np.nextafter(stop, -np.inf)
 
     def right_side(t: float, y: Array) -> Array:
@@ -153,7 +154,8 @@ def _right_side(run: _Run, start: float, stop: float) -> Callable[[float, Array]
         evaluate()
         return np.concatenate([u, a[free]])
 
-    right_side.keep = buffer  # type: ignore[attr-defined]  # the evaluation borrows it
+    # the evaluation reads and writes this memory, which must live as long as it does
+    right_side.keep = (buffer, multipliers, state)  # type: ignore[attr-defined]
     return right_side
 
 
@@ -171,7 +173,6 @@ def _stretch(run: _Run, start: float, stop: float) -> float:
     right_side = _right_side(run, start, stop)
     solver = run.solver(right_side, start, np.concatenate([state.q, state.u[free]]), stop, **run.options)
     first_condition = _condition(state)
-    steps = 0
     while solver.status == "running":
         message = solver.step()
         if solver.status == "failed" or not np.all(np.isfinite(solver.y)):
@@ -187,8 +188,7 @@ def _stretch(run: _Run, start: float, stop: float) -> float:
             solver.y = moved
             if hasattr(solver, "f"):
                 solver.f = right_side(solver.t, moved)
-        steps += 1
-        if steps % CHECK_EVERY == 0 and _condition(run.state) > WORSE * first_condition:
+        if _condition(run.state) > WORSE * first_condition:
             run.state = _repartition(run.state, solver.t)
             return float(solver.t)
     return float(solver.t)

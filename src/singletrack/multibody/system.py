@@ -7,8 +7,9 @@ from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from singletrack.errors import ModelError, unknown_name
+from singletrack.multibody.checks import check_number, check_vector, is_number
 from singletrack.multibody.connections import CoordinateForce, Force, Torque
-from singletrack.multibody.elements import GROUND, check_number, check_vector
+from singletrack.multibody.elements import GROUND
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
@@ -68,6 +69,8 @@ class System:
     def __post_init__(self) -> None:
         for name in ("bodies", "joints", "closures", "wheels", "springs", "inputs", "sensors"):
             object.__setattr__(self, name, tuple(getattr(self, name)))
+        if not is_number(self.gravity):
+            raise ModelError("system: gravity must be a number; to vary it, give the parameter `gravity` a value later")
         object.__setattr__(self, "gravity", check_number("system", "gravity", self.gravity))
         object.__setattr__(self, "down", check_vector("system", "down", self.down))
         if self.independent is not None:
@@ -140,7 +143,7 @@ def _check_tree(system: System) -> None:
     for body in known[1:]:
         if body not in parents:
             raise ModelError(f"body {body}: no joint hangs it from another body or the ground")
-        above, seen = body, set()
+        above, seen = body, set[str]()
         while above != GROUND:
             if above in seen:
                 raise ModelError(f"body {body}: its joints lead round in a circle ({', '.join(sorted(seen))})")
