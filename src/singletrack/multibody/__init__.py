@@ -34,16 +34,19 @@ from singletrack.multibody.linearise import Linearisation, SpeedPolynomials, lin
 from singletrack.multibody.model import Model, State, assemble, build, move
 from singletrack.multibody.simulate import Event, simulate
 from singletrack.multibody.system import System
+from singletrack.multibody.bicycle import bicycle_model, ride
+from singletrack.multibody.coefficients import Coefficients, coefficients
 
 __all__ = [
-    "GROUND",
     "Body",
     "Closure",
+    "Coefficients",
     "Constant",
     "CoordinateForce",
     "Event",
     "Force",
     "Function",
+    "GROUND",
     "Joint",
     "Linearisation",
     "Model",
@@ -60,10 +63,12 @@ __all__ = [
     "Wheel",
     "accelerations",
     "assemble",
+    "bicycle_model",
     "build",
     "close_distance",
     "close_joint",
     "close_point",
+    "coefficients",
     "cylindrical",
     "fixed",
     "free",
@@ -74,6 +79,7 @@ __all__ = [
     "planar",
     "prismatic",
     "revolute",
+    "ride",
     "simulate",
     "speed_polynomials",
     "spherical",
