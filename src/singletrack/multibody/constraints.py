@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from singletrack.multibody.kinematics import Frame
     from singletrack.multibody.system import System
 
-__all__ = ["Contact", "closure_residual", "closure_wrench", "wheel_contact"]
+__all__ = ["Contact", "closure_wrench", "constraint_rates", "holonomic_residual", "wheel_contact"]
 
 
 def closure_residual(closure: Closure, frames: Mapping[str, Frame]) -> SX:
@@ -27,6 +27,24 @@ def closure_residual(closure: Closure, frames: Mapping[str, Frame]) -> SX:
         return ca.norm_2(apart) - closure.length
     rows = [ca.dot(first.rotation @ column(direction), apart) for direction in closure.directions]
     rows += [ca.dot(first.rotation @ column(one), second.rotation @ column(other)) for one, other in closure.orthogonal]
+    return ca.vertcat(*rows)
+
+
+def closure_rate(closure: Closure, frames: Mapping[str, Frame]) -> SX:
+    """Return the rate of :func:`closure_residual`, from the velocities of the bodies."""
+    first, second = frames[closure.first], frames[closure.second]
+    arms = first.arm(column(closure.first_point)), second.arm(column(closure.second_point))
+    apart = second.position + arms[1] - first.position - arms[0]
+    parting = second.point_velocity(arms[1]) - first.point_velocity(arms[0])
+    if closure.length is not None:
+        return ca.dot(apart, parting) / ca.norm_2(apart)
+    # seen from the first body, so that the direction rests: one cross product for all directions
+    seen = parting - ca.cross(first.spin, apart)
+    rows = [ca.dot(first.rotation @ column(direction), seen) for direction in closure.directions]
+    turning = second.spin - first.spin
+    for one, other in closure.orthogonal:
+        axis = ca.cross(second.rotation @ column(other), first.rotation @ column(one))
+        rows.append(ca.dot(turning, axis))
     return ca.vertcat(*rows)
 
 
@@ -48,13 +66,15 @@ def closure_wrench(closure: Closure, frames: Mapping[str, Frame], multipliers: S
 
 @dataclass(frozen=True, eq=False)
 class Contact:
-    """Where and how a wheel touches the ground: point, its height, heading, side and the slip velocities."""
+    """Where and how a wheel touches the ground: point, heading, and the velocity of the wheel's material there.
+
+    The velocity has three parts: forward along the heading, to the side, down. The contact sinks as fast as the
+    material in it, as the wheel is lowest there.
+    """
 
     point: SX
-    height: SX
     heading: SX
-    side: SX
-    slip: SX
+    velocity: SX
 
 
 def wheel_contact(wheel: Wheel, frames: Mapping[str, Frame]) -> Contact:
@@ -68,16 +88,19 @@ def wheel_contact(wheel: Wheel, frames: Mapping[str, Frame]) -> Contact:
     heading = across / level
     side = ca.cross(DOWN, heading)
     velocity = frame.point_velocity(arm)
-    point = frame.position + arm
-    return Contact(point, point[2], heading, side, ca.vertcat(ca.dot(heading, velocity), ca.dot(side, velocity)))
+    parts = ca.vertcat(ca.dot(heading, velocity), ca.dot(side, velocity), velocity[2])
+    return Contact(frame.position + arm, heading, parts)
 
 
 def holonomic_residual(system: System, frames: Mapping[str, Frame], contacts: Mapping[str, Contact]) -> SX:
     """Return everything that must vanish in position: loops, then wheel heights."""
     loops = [closure_residual(closure, frames) for closure in system.closures]
-    return ca.vertcat(ca.SX(0, 1), *loops, *(contacts[wheel.name].height for wheel in system.wheels))
+    return ca.vertcat(ca.SX(0, 1), *loops, *(contacts[wheel.name].point[2] for wheel in system.wheels))
 
 
-def rolling_residual(system: System, contacts: Mapping[str, Contact]) -> SX:
-    """Return everything that must vanish in velocity only: the slip of the wheels."""
-    return ca.vertcat(ca.SX(0, 1), *(contacts[wheel.name].slip for wheel in system.wheels))
+def constraint_rates(system: System, frames: Mapping[str, Frame], contacts: Mapping[str, Contact]) -> SX:
+    """Return everything that must vanish in velocity: rates of the holonomic residual, then the slip of wheels."""
+    touching = [contacts[wheel.name].velocity for wheel in system.wheels]
+    loops = [closure_rate(closure, frames) for closure in system.closures]
+    sinking, slipping = [v[2] for v in touching], [v[:2] for v in touching]
+    return ca.vertcat(ca.SX(0, 1), *loops, *sinking, *slipping)

@@ -19,8 +19,8 @@ import casadi as ca
 from singletrack.errors import ModelError
 from singletrack.multibody.constraints import (
     closure_wrench,
+    constraint_rates,
     holonomic_residual,
-    rolling_residual,
     wheel_contact,
 )
 from singletrack.multibody.forces import applied_wrenches, coordinate_forces, kinetic_energy, potential_energy
@@ -89,7 +89,7 @@ class _Symbols:
     contacts: dict[str, Contact]
     demand: SX
     phi: SX
-    jacobian: SX
+    rate: SX
 
 
 def _express(system: System) -> _Symbols:
@@ -102,9 +102,8 @@ def _express(system: System) -> _Symbols:
     wrenches = applied_wrenches(system, frames, gravity, f)
     demand = inverse(system, frames, links, wrenches) - coordinate_forces(system, q, u, f)
     phi = holonomic_residual(system, frames, contacts)
-    slip = rolling_residual(system, contacts)
-    jacobian = ca.vertcat(ca.jacobian(phi, q), ca.jacobian(slip, u))
-    return _Symbols(q, u, a, f, m, gravity, frames, contacts, demand, phi, jacobian)
+    rate = constraint_rates(system, frames, contacts)
+    return _Symbols(q, u, a, f, m, gravity, frames, contacts, demand, phi, rate)
 
 
 def _sensor_outputs(system: System, frames: dict[str, Frame]) -> SX:
@@ -155,13 +154,12 @@ def derive(system: System) -> Equations:
     s = _express(system)
     n = len(system.coordinates)
     zero = ca.SX.zeros(n)
-    jacobian, mass = s.jacobian, ca.jacobian(s.demand, s.a)
-    rate = jacobian @ s.u
-    rate_change = ca.jtimes(rate, s.q, s.u)
+    jacobian, mass = ca.jacobian(s.rate, s.u), ca.jacobian(s.demand, s.a)
+    rate_change = ca.jtimes(s.rate, s.q, s.u)
     bias = ca.substitute(s.demand, s.a, zero)
-    residual = s.demand - jacobian.T @ s.m
+    residual = s.demand - ca.jtimes(s.rate, s.u, s.m, True)  # noqa: FBT003  # CasADi's flag: transposed
     dq, du = ca.SX.sym("dq", n), ca.SX.sym("du", n)
-    acceleration_level = rate_change + jacobian @ s.a
+    acceleration_level = rate_change + ca.jtimes(s.rate, s.u, s.a)
     change = ca.jtimes(ca.vertcat(residual, acceleration_level), ca.vertcat(s.q, s.u), ca.vertcat(dq, du))
     points = _matrix([s.contacts[wheel.name].point for wheel in system.wheels])
     headings = _matrix([s.contacts[wheel.name].heading for wheel in system.wheels])
@@ -171,7 +169,7 @@ def derive(system: System) -> Equations:
         "bias": ((s.q, s.u, s.f), (bias, rate_change)),
         "tangent": (
             (s.q, s.u, s.a, s.m, s.f, dq, du),
-            (change[:n], ca.jtimes(rate, s.q, dq), change[n:]),
+            (change[:n], ca.jtimes(s.rate, s.q, dq), change[n:]),
         ),
         "input_matrix": ((s.q,), (-ca.jacobian(bias, s.f),)),
         "energy": (
