@@ -1,0 +1,220 @@
+"""The 31 points of bicycle and rider: Table 4 of Schwab and Kooijman (after Moore et al. 2009, Table 10)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import pi
+from typing import TYPE_CHECKING, Any
+
+from singletrack.arrays import Array, as_arrays, is_concrete, namespace, vector
+from singletrack.errors import InputError, PostureError
+from singletrack.faults import Fault, refuse_single
+
+if TYPE_CHECKING:
+    from singletrack.parameters import Bicycle, Rider
+
+__all__ = ["POINT_NAMES", "Skeleton", "skeleton"]
+
+#: What the points 1 to 31 are. Right is positive y; the table's own comment calls points 21 and 23 left.
+POINT_NAMES = (
+    "rear contact",
+    "rear hub",
+    "rear hub, right end",
+    "rear hub, left end",
+    "bottom bracket",
+    "front contact",
+    "front hub",
+    "front hub, right end",
+    "front hub, left end",
+    "seat tube top",
+    "fork crown",
+    "head tube top",
+    "hip centre",
+    "knee centre",
+    "shoulder centre",
+    "stem top",
+    "handlebar, right end",
+    "handlebar, left end",
+    "right grip",
+    "left grip",
+    "right shoulder",
+    "left shoulder",
+    "right elbow",
+    "left elbow",
+    "head",
+    "right foot",
+    "left foot",
+    "right knee",
+    "left knee",
+    "right hip",
+    "left hip",
+)
+
+
+@dataclass(frozen=True, eq=False)
+class Skeleton:
+    """The points of a rider seated on a bicycle.
+
+    Attributes
+    ----------
+    points : array, shape (..., 31, 3)
+        In m, in the bicycle's frame; NaN where a limb does not reach.
+    faults : tuple of Fault
+        Designs of a batch whose limbs do not reach.
+    """
+
+    points: Array
+    faults: tuple[Fault, ...] = ()
+
+    def __getitem__(self, number: int) -> Array:
+        """Return point ``number`` (1 to 31, as in the table), shape (..., 3), in m."""
+        return self.points[..., number - 1, :]
+
+
+def skeleton(bicycle: Bicycle, rider: Rider) -> Skeleton:
+    """Seat a rider on a bicycle.
+
+    Parameters
+    ----------
+    bicycle : Bicycle
+        With frame geometry.
+    rider : Rider
+        With a forward lean angle on this bicycle.
+
+    Raises
+    ------
+    InputError
+        If the bicycle has no frame geometry (the missing names are listed) or the rider no forward lean angle.
+    PostureError
+        If arms or legs of a single design do not reach; a batch keeps the others and lists the faults.
+
+    Examples
+    --------
+    >>> from singletrack import load_bicycle, load_rider
+    >>> skeleton(load_bicycle("stratos"), load_rider("rider-a"))[13].round(4).tolist()
+    [0.2677, 0.0, -0.942]
+    """
+    missing = bicycle.missing_geometry()
+    if missing:
+        raise InputError(
+            f"{bicycle.name or 'bicycle'}: cannot seat a rider without frame geometry; missing: {', '.join(missing)}"
+        )
+    rider = rider.on(bicycle)
+    frame = _frame_points(bicycle)
+    body, faults = _rider_points(frame, bicycle, rider)
+    points = frame | body
+    xp, arrays = as_arrays(*(points[number] for number in range(1, 32)))
+    where = " on ".join(name for name in (rider.name, bicycle.name) if name)
+    return Skeleton(xp.stack(xp.broadcast_arrays(*arrays), axis=-2), refuse_single(faults, where))
+
+
+def _frame_points(bicycle: Bicycle) -> dict[int, Array]:
+    """Return points 1 to 12 and 16: wheels, frame, stem top."""
+    values = {name: value for name, value in bicycle.values().items() if "mass" not in name and "inertia" not in name}
+    xp, arrays = as_arrays(*values.values())
+    b: dict[str, Any] = dict(zip(values, arrays, strict=True))
+    rear, front = b["rear_wheel_radius"], b["front_wheel_radius"]
+    sin, cos = xp.sin(b["steer_axis_tilt"]), xp.cos(b["steer_axis_tilt"])
+    seat_cos, seat_sin = xp.cos(b["seat_tube_angle"]), xp.sin(b["seat_tube_angle"])
+
+    p: dict[int, Array] = {1: vector(0.0, 0.0, 0.0), 2: vector(0.0, 0.0, -rear)}
+    p[3], p[4] = (p[2] + vector(0.0, side * b["rear_hub_width"] / 2, 0.0) for side in (1, -1))
+    drop = rear - b["bottom_bracket_height"]
+    p[5] = vector(_other_leg(xp, b["chain_stay_length"], drop), 0.0, -b["bottom_bracket_height"])
+    p[6] = vector(b["wheel_base"], 0.0, 0.0)
+    p[7] = p[6] + vector(0.0, 0.0, -front)
+    p[8], p[9] = (p[7] + vector(0.0, side * b["front_hub_width"] / 2, 0.0) for side in (1, -1))
+    up_seat_tube = vector(-seat_cos, 0.0, -seat_sin)
+    p[10] = p[5] + b["seat_tube_length"][..., None] * up_seat_tube
+    # The head tube angle is 90 deg minus the steer axis tilt: its cosine is the tilt's sine.
+    offset = front * sin - b["trail"] * cos
+    along = _other_leg(xp, b["fork_length"], offset)
+    p[11] = p[7] + vector(-offset * cos - along * sin, 0.0, offset * sin - along * cos)
+    p[12] = vector(p[11][..., 0] - (p[11][..., 2] - p[10][..., 2]) * sin / cos, 0.0, p[10][..., 2])
+    p[13] = p[10] + b["seat_post_length"][..., None] * up_seat_tube
+    p[16] = p[12] + vector(-b["stem_length"] * sin, 0.0, -b["stem_length"] * cos)
+    p[19] = p[16] + vector(-b["handlebar_length"], 0.0, 0.0)  # still without the rider's shoulder width
+    return p
+
+
+def _other_leg(xp: Any, hypotenuse: Array, leg: Array) -> Array:
+    """Return the other leg of a right triangle, NaN where there is none."""
+    square = hypotenuse**2 - leg**2
+    return xp.sqrt(xp.where(xp.real(square) < 0, xp.nan, square) if is_concrete(square) else square)
+
+
+def _rider_points(frame: dict[int, Array], bicycle: Bicycle, rider: Rider) -> tuple[dict[int, Array], list[Fault]]:
+    """Return points 13 to 31 but the stem top, and the limbs that do not reach."""
+    xp, (torso, lean, shoulders, hips, head) = as_arrays(
+        rider.torso_length,
+        rider.forward_lean_angle,
+        rider.shoulder_to_shoulder,
+        rider.hip_joint_to_hip_joint,
+        rider.head_circumference / (2 * pi),
+    )
+    p: dict[int, Array] = {}
+    up_torso = vector(xp.cos(lean), 0.0, -xp.sin(lean))
+    p[15] = frame[13] + torso[..., None] * up_torso
+    grip = frame[19]
+    bracket, hip = frame[5], frame[13]
+    p[14], leg = _two_link_joint(hip, bracket, rider.upper_leg_length, rider.lower_leg_length, 1.0, "leg")
+    elbow, arm = _two_link_joint(p[15], grip, rider.upper_arm_length, rider.lower_arm_length, -1.0, "arm")
+    right_shoulder, left_shoulder = (vector(0.0, side * shoulders / 2, 0.0) for side in (1, -1))
+    right_hip, left_hip = (vector(0.0, side * hips / 2, 0.0) for side in (1, -1))
+    p[17], p[18] = frame[16] + right_shoulder, frame[16] + left_shoulder
+    p[19], p[20] = grip + right_shoulder, grip + left_shoulder
+    p[21], p[22] = p[15] + right_shoulder, p[15] + left_shoulder
+    p[23], p[24] = elbow + right_shoulder, elbow + left_shoulder
+    p[25] = p[15] + head[..., None] * up_torso
+    p[26], p[27] = bracket + right_hip, bracket + left_hip
+    p[28], p[29] = p[14] + right_hip, p[14] + left_hip
+    p[30], p[31] = hip + right_hip, hip + left_hip
+    return p, [fault for fault in (*_frame_faults(frame, bicycle), *leg, *arm) if is_concrete(fault.bad)]
+
+
+def _two_link_joint(
+    start: Array, end: Array, first: Array, second: Array, bend: float, limb: str
+) -> tuple[Array, list[Fault]]:
+    """Return the joint (..., 3) of a limb of two links in the x-z plane, bent to one side, and where it fails."""
+    xp, (first, second) = as_arrays(first, second)
+    dx, dz = end[..., 0] - start[..., 0], end[..., 2] - start[..., 2]
+    distance = xp.sqrt(dx**2 + dz**2)
+    cosine = (distance**2 + first**2 - second**2) / (2 * distance * first)
+    outside = xp.abs(cosine) > 1 if is_concrete(cosine) else False
+    angle = xp.atan2(dx, dz) + bend * xp.acos(xp.where(outside, xp.nan, cosine))
+    joint = start + vector(first * xp.sin(angle), 0.0, first * xp.cos(angle))
+    ends, lengths = _LIMBS[limb]
+    found = {"distance": distance, "reach": first + second, "least": abs(first - second)}
+    text = f"the {ends} distance is {{distance:.4f}} m, but the {limb} ({lengths}) "
+    too_far, too_near = distance > first + second, distance < abs(first - second)
+    return joint, [
+        Fault(too_far, text + "reaches only {reach:.4f} m", found, PostureError),
+        Fault(too_near, text + "cannot fold below {least:.4f} m", found, PostureError),
+    ]
+
+
+_LIMBS = {
+    "arm": ("shoulder-grip", "upper_arm_length + lower_arm_length"),
+    "leg": ("hip-bracket", "upper_leg_length + lower_leg_length"),
+}
+
+
+def _frame_faults(frame: dict[int, Array], bicycle: Bicycle) -> list[Fault]:
+    """Return faults of frame geometry: tubes too short to span their distance."""
+    xp = namespace(frame[5], frame[11])
+    drop = bicycle.rear_wheel_radius - bicycle.bottom_bracket_height
+    return [
+        Fault(
+            xp.isnan(frame[5][..., 0]),
+            "chain_stay_length = {length:.4f} m does not span the height {drop:.4f} m between rear hub and bottom "
+            "bracket, must be more",
+            {"length": bicycle.chain_stay_length, "drop": abs(drop)},
+            InputError,
+        ),
+        Fault(
+            xp.isnan(frame[11][..., 0]),
+            "fork_length = {length:.4f} m is less than the offset of the front hub from the steer axis, must be more",
+            {"length": bicycle.fork_length},
+            InputError,
+        ),
+    ]

@@ -1,0 +1,67 @@
+"""Inertia tensors of uniform solids about their centres, any leading batch dimensions."""
+
+from __future__ import annotations
+
+from singletrack.arrays import Array, as_arrays, vector
+
+__all__ = ["cylinder_inertia", "prism_inertia", "sphere_inertia"]
+
+
+def _about_axis(axis: Array, along: Array, across: Array) -> Array:
+    """Return the tensor with moment ``along`` about a unit axis (..., 3) and ``across`` about any normal to it."""
+    xp, (axis, along, across) = as_arrays(axis, along, across)
+    dyad = axis[..., :, None] * axis[..., None, :]
+    return across[..., None, None] * xp.eye(3, dtype=axis.dtype) + (along - across)[..., None, None] * dyad
+
+
+def cylinder_inertia(mass: Array, radius: Array, length: Array, axis: Array) -> Array:
+    """Return the inertia (..., 3, 3) in kg m^2 of a solid cylinder about its centre.
+
+    Parameters
+    ----------
+    mass, radius, length : array, shape (...)
+        In kg and m.
+    axis : array, shape (..., 3)
+        Unit vector along the cylinder.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> np.diag(cylinder_inertia(12.0, 1.0, 2.0, np.array([0.0, 0.0, 1.0]))).tolist()
+    [7.0, 7.0, 6.0]
+    """
+    return _about_axis(axis, mass * radius**2 / 2, mass * (3 * radius**2 + length**2) / 12)
+
+
+def sphere_inertia(mass: Array, radius: Array) -> Array:
+    """Return the inertia (..., 3, 3) in kg m^2 of a solid sphere of mass (...) kg and radius (...) m.
+
+    >>> sphere_inertia(5.0, 1.0)[0].tolist()
+    [2.0, 0.0, 0.0]
+    """
+    xp, (moment,) = as_arrays(0.4 * mass * radius**2)
+    return moment[..., None, None] * xp.eye(3, dtype=moment.dtype)
+
+
+def prism_inertia(mass: Array, length: Array, width: Array, thickness: Array, axis: Array) -> Array:
+    """Return the inertia (..., 3, 3) in kg m^2 of a solid rectangular prism about its centre.
+
+    Parameters
+    ----------
+    mass, length, width, thickness : array, shape (...)
+        In kg and m; ``length`` along ``axis``, ``width`` along y, ``thickness`` normal to both.
+    axis : array, shape (..., 3)
+        Unit vector along the prism, in the x-z plane.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> np.diag(prism_inertia(12.0, 3.0, 2.0, 1.0, np.array([0.0, 0.0, -1.0]))).tolist()
+    [13.0, 10.0, 5.0]
+    """
+    normal = vector(-axis[..., 2], 0.0 * axis[..., 1], axis[..., 0])
+    return (
+        _about_axis(axis, mass * (width**2 + thickness**2) / 12, 0.0)
+        + _about_axis(normal, mass * (length**2 + width**2) / 12, 0.0)
+        + _about_axis(vector(0.0, 1.0, 0.0), mass * (length**2 + thickness**2) / 12, 0.0)
+    )

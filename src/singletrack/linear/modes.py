@@ -1,0 +1,155 @@
+"""Eigenvalues as named modes, followed through the speeds.
+
+Names come from physics at high speed, where every bicycle is alike: one real root stays bounded (capsize), the other
+three grow with the speed, a real one (castering) and a pair (weave). From there each root is followed down to any
+speed along the exact meetings of roots (:mod:`singletrack.linear.meetings`), so that the name of a root depends on the
+bicycle and the speed alone, and all four roots are there at every speed.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, ClassVar
+
+import numpy as np
+
+from singletrack.errors import InputError
+from singletrack.linear.characteristic import CharacteristicPolynomial, characteristic_polynomial
+from singletrack.linear.eigenvalues import checked_speeds, eigenmotions, eigenvalues
+from singletrack.linear.meetings import Meetings, find_meetings, quartic_roots
+from singletrack.linear.slots import arrange, label_at_infinity, label_below, real_count
+
+if TYPE_CHECKING:
+    import xarray
+
+    from singletrack.arrays import Array
+    from singletrack.linear.matrices import CoefficientMatrices
+
+__all__ = ["Modes", "modes"]
+
+
+@dataclass(frozen=True, eq=False)
+class Modes:
+    """The eigenvalues at n speeds, one column for each mode.
+
+    Attributes
+    ----------
+    speeds : array, shape (n,)
+        Forward speeds in m/s.
+    eigenvalues : complex array, shape (..., n, 4)
+        In 1/s; columns as in :attr:`names`. Of a pair, the first column has the positive imaginary part.
+    eigenmotions : complex array, shape (..., n, 4, 2)
+        Lean and steer of each mode, lean normalised to one.
+    """
+
+    speeds: np.ndarray
+    eigenvalues: np.ndarray
+    eigenmotions: np.ndarray
+
+    names: ClassVar[tuple[str, ...]] = ("weave", "weave", "capsize", "castering")
+
+    @property
+    def applies(self) -> np.ndarray:
+        """Whether each name describes the motion at each speed, bool array of shape (..., n, 4).
+
+        Weave: a pair of roots, an oscillation. Capsize: a real root. Castering: a real negative root whose motion is
+        mostly steer.
+        """
+        roots = self.eigenvalues
+        with np.errstate(invalid="ignore"):
+            pair = (roots[..., :2].imag != 0) & (roots[..., :1] == np.conj(roots[..., 1:2]))
+            steer_dominates = np.abs(self.eigenmotions[..., 3, 1]) > np.abs(self.eigenmotions[..., 3, 0])
+            castering = (roots[..., 3].imag == 0) & (roots[..., 3].real < 0) & steer_dominates
+        return np.concatenate([pair, roots[..., 2:3].imag == 0, castering[..., None]], axis=-1)
+
+    @property
+    def steer_phase(self) -> np.ndarray:
+        """Phase of steer relative to lean, shape (..., n, 4), in rad: negative where steer lags."""
+        phase: np.ndarray = np.angle(self.eigenmotions[..., 1])
+        return phase
+
+    def to_xarray(self) -> xarray.Dataset:
+        """Return eigenvalues and eigenmotions labelled by speed, mode and coordinate."""
+        import xarray as xr  # noqa: PLC0415  # lazy: heavy
+
+        batch = [f"design_{i}" for i in range(self.eigenvalues.ndim - 2)]
+        return xr.Dataset(
+            {
+                "eigenvalues": ([*batch, "speed", "mode"], self.eigenvalues, {"units": "1/s"}),
+                "eigenmotions": ([*batch, "speed", "mode", "coordinate"], self.eigenmotions),
+                "applies": ([*batch, "speed", "mode"], self.applies),
+            },
+            coords={
+                "speed": ("speed", self.speeds, {"units": "m/s"}),
+                "mode": ["weave +", "weave -", "capsize", "castering"],
+                "coordinate": ["lean", "steer"],
+            },
+        )
+
+
+def modes(model: CoefficientMatrices, speeds: Array) -> Modes:
+    """Return the named modes of designs (...) at speeds (n,).
+
+    Parameters
+    ----------
+    model : CoefficientMatrices
+    speeds : array, shape () or (n,)
+        Forward speeds in m/s, in any order, not negative.
+
+    Raises
+    ------
+    InputError
+        If a speed is negative or not finite.
+
+    Examples
+    --------
+    >>> from singletrack import coefficients, load_bicycle
+    >>> modes(coefficients(load_bicycle("benchmark")), 5.0).eigenvalues.round(2)[0].tolist()
+    [(-0.78+4.46j), (-0.78-4.46j), (-0.32+0j), (-14.08+0j)]
+    """
+    v = checked_speeds(speeds)
+    if (v < 0).any():
+        raise InputError(f"speeds: found {v.min():g} m/s, must be zero or more (modes are named for riding forward)")
+    p = characteristic_polynomial(model)
+    batch = np.broadcast_shapes(*(np.shape(a)[:-1] for a in (p.a4, p.a2, p.a0)))
+    flat = CharacteristicPolynomial(
+        *(np.broadcast_to(a, (*batch, a.shape[-1])).reshape(-1, a.shape[-1]) for a in (p.a4, p.a3, p.a2, p.a1, p.a0))
+    )
+    roots = eigenvalues(model, v).reshape(-1, len(v), 4)
+    usable = np.isfinite(roots).all(axis=(1, 2))
+    named = np.full_like(roots, np.nan)
+    if usable.any():
+        some = CharacteristicPolynomial(*(a[usable] for a in (flat.a4, flat.a3, flat.a2, flat.a1, flat.a0)))
+        named[usable] = _follow(some, v, roots[usable])
+    named = named.reshape(*batch, len(v), 4)
+    return Modes(v, named, eigenmotions(model, v, named))
+
+
+def _follow(p: CharacteristicPolynomial, v: np.ndarray, roots: np.ndarray) -> np.ndarray:
+    """Put roots (m, n, 4) into the columns of their modes."""
+    meetings = find_meetings(p)
+    counts, labels = _labels(p, meetings)
+    interval = (v[None, :, None] > meetings.speeds[:, None, :]).sum(axis=-1)
+    count = np.take_along_axis(counts, interval, axis=1)
+    slots = arrange(roots, count, descending=v[None, :] < meetings.passing[:, None])
+    columns = np.take_along_axis(labels, interval[..., None], axis=1)
+    named = np.empty_like(roots)
+    np.put_along_axis(named, columns, slots, axis=-1)
+    swapped = (named[..., 0].imag < 0) & (named[..., 1].imag > 0)
+    named[..., :2] = np.where(swapped[..., None], named[..., 1::-1], named[..., :2])
+    return named
+
+
+def _labels(p: CharacteristicPolynomial, meetings: Meetings) -> tuple[np.ndarray, np.ndarray]:
+    """Return, for m designs and 7 intervals, the number of real roots (m, 7) and the column of each slot (m, 7, 4)."""
+    inside = meetings.between()
+    counts = real_count(quartic_roots(p, inside))
+    finite = np.isfinite(meetings.speeds)
+    at = quartic_roots(p, np.where(finite, meetings.speeds, 1.0))
+    descending = np.where(finite, meetings.speeds, 1.0) < meetings.passing[:, None]
+    labels = np.empty((*counts.shape, 4), dtype=np.intp)
+    labels[:, -1] = label_at_infinity(p, counts[:, -1])
+    for k in range(meetings.speeds.shape[1] - 1, -1, -1):
+        below = label_below(labels[:, k + 1], counts[:, k + 1], counts[:, k], at[:, k], descending[:, k])
+        labels[:, k] = np.where(finite[:, k, None], below, labels[:, k + 1])
+    return counts, labels

@@ -1,0 +1,137 @@
+"""The rider: body lengths, circumferences and masses."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from math import pi
+from typing import TYPE_CHECKING, ClassVar
+
+from singletrack.arrays import Array, is_concrete
+from singletrack.errors import InputError
+from singletrack.faults import Fault
+from singletrack.parameters.record import Record, parameter
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from singletrack.parameters.bicycle import Bicycle
+
+__all__ = ["MASS_FRACTIONS", "Rider"]
+
+_BODY, _MASS = "body", "mass"
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Rider(Record):
+    """A rider, SI units, angles in radians; the names are those of Table 3 of Schwab and Kooijman.
+
+    ``forward_lean_angle`` belongs to a rider *on* a bicycle: give it outright, or for bicycles by name in
+    ``forward_lean_angles``. Lengths and masses of arms and legs are those of one side. Every parameter may be an array.
+
+    Raises
+    ------
+    InputError
+        If a single design has a value that is missing, not finite or not allowed.
+
+    Examples
+    --------
+    >>> from math import degrees
+    >>> from singletrack import load_bicycle, load_rider
+    >>> round(degrees(load_rider("rider-a").on(load_bicycle("stratos")).forward_lean_angle), 9)
+    63.9
+    """
+
+    kind: ClassVar[str] = "rider"
+
+    chest_circumference: Array = parameter("m", "cch", "around the chest", group=_BODY)
+    forward_lean_angle: Array = parameter(
+        "rad", "λfl", "torso from the horizontal, on this bicycle", "angle", group=_BODY, optional=True
+    )
+    head_circumference: Array = parameter("m", "ch", "around the head", group=_BODY)
+    hip_joint_to_hip_joint: Array = parameter("m", "lhh", "between the hip joints", group=_BODY)
+    lower_arm_circumference: Array = parameter("m", "cla", "around the lower arm", group=_BODY)
+    lower_arm_length: Array = parameter("m", "lla", "elbow to grip", group=_BODY)
+    lower_leg_circumference: Array = parameter("m", "cll", "around the lower leg", group=_BODY)
+    lower_leg_length: Array = parameter("m", "lll", "knee to pedal", group=_BODY)
+    shoulder_to_shoulder: Array = parameter("m", "lss", "between the shoulder joints", group=_BODY)
+    torso_length: Array = parameter("m", "lto", "hip joints to shoulder joints", group=_BODY)
+    upper_arm_circumference: Array = parameter("m", "cua", "around the upper arm", group=_BODY)
+    upper_arm_length: Array = parameter("m", "lua", "shoulder to elbow", group=_BODY)
+    upper_leg_circumference: Array = parameter("m", "cul", "around the upper leg", group=_BODY)
+    upper_leg_length: Array = parameter("m", "lul", "hip to knee", group=_BODY)
+
+    rider_mass: Array = parameter("kg", "mBr", "whole rider", group=_MASS)
+    head_mass_fraction: Array = parameter("", "mh/mBr", "head", "fraction", group=_MASS)
+    lower_arm_mass_fraction: Array = parameter("", "mla/mBr", "one lower arm", "fraction", group=_MASS)
+    lower_leg_mass_fraction: Array = parameter("", "mll/mBr", "one lower leg", "fraction", group=_MASS)
+    torso_mass_fraction: Array = parameter("", "mto/mBr", "torso", "fraction", group=_MASS)
+    upper_arm_mass_fraction: Array = parameter("", "mua/mBr", "one upper arm", "fraction", group=_MASS)
+    upper_leg_mass_fraction: Array = parameter("", "mul/mBr", "one upper leg", "fraction", group=_MASS)
+
+    forward_lean_angles: Mapping[str, Array] = field(default_factory=dict)
+
+    def on(self, bicycle: Bicycle) -> Rider:
+        """Return this rider with the forward lean angle on a bicycle.
+
+        Raises
+        ------
+        InputError
+            If the rider has neither a ``forward_lean_angle`` nor one for a bicycle of that name.
+        """
+        if self.forward_lean_angle is not None:
+            return self
+        if bicycle.name not in self.forward_lean_angles:
+            known = ", ".join(self.forward_lean_angles) or "none"
+            raise InputError(
+                f"{self.name or 'rider'}: forward_lean_angle on bicycle {bicycle.name or '(no name)'!r} is not known "
+                f"(known on: {known}); it must be given, between 0 and 90 deg: as forward_lean_angle in the rider's "
+                'file, or on the command line with --set "forward_lean_angle=70 deg"'
+            )
+        return self.replace(forward_lean_angle=self.forward_lean_angles[bicycle.name])
+
+    @property
+    def torso_width(self) -> Array:
+        """Width of the torso, along y, in m: between the insides of the upper arms."""
+        return self.shoulder_to_shoulder - self.upper_arm_circumference / pi
+
+    @property
+    def torso_thickness(self) -> Array:
+        """Thickness of the torso in m: a stadium of this thickness and the torso's width has the chest's girth."""
+        return (self.chest_circumference - 2 * self.torso_width) / (pi - 2)
+
+    def _physical_faults(self) -> Iterator[Fault]:
+        import numpy as np  # noqa: PLC0415
+
+        inputs = (self.shoulder_to_shoulder, self.upper_arm_circumference, self.chest_circumference)
+        if not all(is_concrete(value) and np.asarray(value).dtype.kind in "iufc" for value in inputs):
+            return
+        width, thickness = np.real(self.torso_width), np.real(self.torso_thickness)
+        finite = np.isfinite(width) & np.isfinite(thickness)
+        found = {"width": width, "twice": 2 * width}
+        found |= dict(zip(("shoulders", "arm", "chest"), (np.asarray(value) for value in inputs), strict=True))
+        yield Fault(
+            finite & (width <= 0),
+            "shoulder_to_shoulder = {shoulders:.6g} m leaves no torso between upper arms of "
+            "upper_arm_circumference = {arm:.6g} m, must be more than upper_arm_circumference / pi",
+            found,
+            InputError,
+        )
+        yield Fault(
+            finite & (width > 0) & (thickness <= 0),
+            "chest_circumference = {chest:.6g} m does not go around a torso {width:.6g} m wide (shoulder_to_shoulder "
+            "- upper_arm_circumference / pi), must be more than {twice:.6g} m",
+            found,
+            InputError,
+        )
+
+
+#: Names of the mass fractions with the number of such segments; the fractions of all segments sum to 1.
+MASS_FRACTIONS = {
+    "head_mass_fraction": 1,
+    "lower_arm_mass_fraction": 2,
+    "lower_leg_mass_fraction": 2,
+    "torso_mass_fraction": 1,
+    "upper_arm_mass_fraction": 2,
+    "upper_leg_mass_fraction": 2,
+}

@@ -1,0 +1,240 @@
+"""How the rider's segments move with the steer angle, to second order.
+
+Let the steer angle turn at the constant rate one, so that d/dδ is a time derivative. Then the first-order motion of a
+chain of hinges is a matter of velocities, the second-order motion one of accelerations: with joint rates s' and s'',
+
+    ω_i = ω_{i-1} + s'_i a_i                       v_i = v_{i-1} + ω_{i-1} x d_i
+    α_i = α_{i-1} + s''_i a_i + ω_{i-1} x s'_i a_i   b_i = b_{i-1} + α_{i-1} x d_i + ω_{i-1} x (ω_{i-1} x d_i)
+
+where a_i is the axis and d_i the arm from joint i-1 to joint i. Each hand stays on its grip, which turns about the
+steer axis; both orders lead to linear equations with the same matrix, the Jacobian of the loops.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from singletrack.arrays import Array, as_arrays, cross, is_concrete, namespace, vector
+from singletrack.errors import PostureError
+from singletrack.faults import Fault, refuse_single
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from singletrack.parameters import Bicycle
+    from singletrack.posture.postures import Joint, Posture
+
+__all__ = ["SlavedBodies", "joint_motion", "slaved_bodies", "steer_axis"]
+
+#: Loops whose matrix (of sines of angles, arms scaled to their mean) is closer to singular than this cannot move.
+_SINGULAR = 1e-9
+
+
+@dataclass(frozen=True, eq=False)
+class SlavedBodies:
+    """Bodies that move with the steer angle δ relative to the rear frame; n bodies on the axis before the last.
+
+    A body's centre moves by J δ + H δ²/2, its first-order rotation is w δ.
+
+    Attributes
+    ----------
+    mass : array, shape (..., n)
+        In kg.
+    centre : array, shape (..., n, 3)
+        At zero steer, in m, in the bicycle's frame.
+    inertia : array, shape (..., n, 3, 3)
+        About the centre, in kg m^2.
+    rotation : array, shape (..., n, 3)
+        w, in rad per rad of steer.
+    displacement, curvature : array, shape (..., n, 3)
+        J in m per rad, H in m per rad^2.
+    faults : tuple of Fault
+        Designs of a batch that cannot sit or steer.
+    """
+
+    mass: Array
+    centre: Array
+    inertia: Array
+    rotation: Array
+    displacement: Array
+    curvature: Array
+    faults: tuple[Fault, ...] = ()
+
+
+def steer_axis(bicycle: Bicycle) -> tuple[Array, Array]:
+    """Return a point (..., 3) on the steer axis, at the ground, in m, and its unit vector (..., 3), pointing down.
+
+    >>> from singletrack import load_bicycle
+    >>> point, axis = steer_axis(load_bicycle("benchmark"))
+    >>> point.round(6).tolist(), axis.round(6).tolist()
+    ([1.1, 0.0, 0.0], [0.309017, 0.0, 0.951057])
+    """
+    xp, (reach, tilt) = as_arrays(bicycle.wheel_base + bicycle.trail, bicycle.steer_axis_tilt)
+    return vector(reach, 0.0, 0.0), vector(xp.sin(tilt), 0.0, xp.cos(tilt))
+
+
+@dataclass(frozen=True, eq=False)
+class _Chain:
+    """Velocities and accelerations of the last link of a chain, at a point on it."""
+
+    point: Array
+    omega: Array
+    alpha: Array
+    velocity: Array
+    acceleration: Array
+
+    def at(self, point: Array) -> tuple[Array, Array]:
+        """Return velocity and acceleration (..., 3) of another point of the link."""
+        arm = point - self.point
+        velocity = self.velocity + cross(self.omega, arm)
+        return velocity, self.acceleration + cross(self.alpha, arm) + cross(self.omega, cross(self.omega, arm))
+
+
+def _follow(chain: tuple[Joint, ...], rates: dict[str, Array], accelerations: dict[str, Array] | None) -> _Chain:
+    """Return the motion of the last link of a chain; without accelerations, the part that the rates alone cause."""
+    zero = 0.0 * chain[0].point
+    link = _Chain(chain[0].point, zero, zero, zero, zero)
+    for joint in chain:
+        velocity, acceleration = link.at(joint.point)
+        spin = rates[joint.name][..., None] * joint.axis
+        alpha = link.alpha + cross(link.omega, spin)
+        if accelerations is not None:
+            alpha = alpha + accelerations[joint.name][..., None] * joint.axis
+        link = _Chain(joint.point, link.omega + spin, alpha, velocity, acceleration)
+    return link
+
+
+def _loop_matrix(posture: Posture) -> Array:
+    """Return the Jacobian (..., 3 loops, joints) of the hands' positions with respect to the joint angles."""
+    rows = []
+    for loop in posture.loops:
+        moving = {joint.name for joint in posture.chain(loop.joint)}
+        columns = [
+            cross(joint.axis, loop.point - joint.point) if joint.name in moving else 0.0 * loop.point
+            for joint in posture.joints
+        ]
+        rows.append(_stack(columns, -1))
+    return namespace(*rows).concat(rows, axis=-2)
+
+
+def joint_motion(posture: Posture, bicycle: Bicycle) -> tuple[dict[str, Array], dict[str, Array], tuple[Fault, ...]]:
+    """Return the joint angles' first and second derivatives with respect to the steer angle.
+
+    Parameters
+    ----------
+    posture : Posture
+    bicycle : Bicycle
+
+    Returns
+    -------
+    first, second : dict of str to array, shape (...)
+        s' and s'' of every joint.
+    faults : tuple of Fault
+        Designs of a batch whose loops cannot follow the steer.
+
+    Raises
+    ------
+    PostureError
+        If the loops of a single design cannot follow the steer (an arm stretched or folded in its own plane).
+
+    Examples
+    --------
+    The leaned rider's torso twists with the steer, and pitches only to second order:
+
+    >>> from singletrack import load_bicycle, load_rider
+    >>> from singletrack.posture import seat
+    >>> bicycle = load_bicycle("stratos")
+    >>> first, second, _ = joint_motion(seat(bicycle, load_rider("rider-a"), "leaned"), bicycle)
+    >>> bool(abs(first["torso pitch"]) < 1e-12), bool(abs(second["torso pitch"]) > 0.01)
+    (True, True)
+    """
+    if not posture.loops:
+        return {}, {}, ()
+    foot, axis = steer_axis(bicycle)
+    matrix = _loop_matrix(posture)
+    xp = namespace(matrix)
+    faults = _singular_faults(matrix, posture)
+    for fault in faults:
+        matrix = xp.where(fault.bad[..., None, None], xp.nan, matrix)
+    turning = [cross(axis, loop.point - foot) for loop in posture.loops]
+    first = _by_joint(posture, _solve(matrix, turning))
+    residual = [
+        cross(axis, velocity) - _follow(posture.chain(loop.joint), first, None).at(loop.point)[1]
+        for loop, velocity in zip(posture.loops, turning, strict=True)
+    ]
+    return first, _by_joint(posture, _solve(matrix, residual)), faults
+
+
+def _solve(matrix: Array, parts: list[Array]) -> Array:
+    xp, right_sides = as_arrays(*parts)
+    right = xp.concat(xp.broadcast_arrays(*right_sides), axis=-1)
+    return xp.linalg.solve(matrix, right[..., None])[..., 0]
+
+
+def _by_joint(posture: Posture, values: Array) -> dict[str, Array]:
+    return {joint.name: values[..., i] for i, joint in enumerate(posture.joints)}
+
+
+def _singular_faults(matrix: Array, posture: Posture) -> tuple[Fault, ...]:
+    if not is_concrete(matrix):
+        return ()
+    import numpy as np  # noqa: PLC0415
+
+    numbers = np.asarray(matrix)
+    finite = np.isfinite(numbers).all(axis=(-2, -1))
+    singular_values = np.linalg.svd(np.where(finite[..., None, None], numbers, 0.0), compute_uv=False)
+    bad = finite & (singular_values[..., -1] < _SINGULAR * singular_values[..., 0])
+    text = (
+        f"posture {posture.name}: the hands cannot follow the grips when steering, because the loops through the arms "
+        "are singular (an arm is stretched straight, or its axes line up)"
+    )
+    return refuse_single([Fault(bad, text, {}, PostureError)])
+
+
+def slaved_bodies(posture: Posture, bicycle: Bicycle) -> SlavedBodies:
+    """Return the rider's segments and how they move with the steer.
+
+    Parameters
+    ----------
+    posture : Posture
+    bicycle : Bicycle
+
+    Raises
+    ------
+    PostureError
+        As in :func:`joint_motion`.
+
+    Examples
+    --------
+    >>> from singletrack import load_bicycle, load_rider
+    >>> from singletrack.posture import seat
+    >>> bicycle = load_bicycle("browser")
+    >>> slaved_bodies(seat(bicycle, load_rider("rider-a"), "upright"), bicycle).displacement.shape
+    (10, 3)
+    """
+    first, second, faults = joint_motion(posture, bicycle)
+    columns = []
+    for name, segment in posture.segments.items():
+        chain = posture.chain((posture.carried_by or {}).get(name, ""))
+        zero = 0.0 * segment.centre
+        if chain:
+            link = _follow(chain, first, second)
+            columns.append((segment, link.omega, *link.at(segment.centre)))
+        else:
+            columns.append((segment, zero, zero, zero))
+    bodies, rotations, displacements, curvatures = zip(*columns, strict=True)
+    return SlavedBodies(
+        mass=_stack([body.mass for body in bodies], -1),
+        centre=_stack([body.centre for body in bodies], -2),
+        inertia=_stack([body.inertia for body in bodies], -3),
+        rotation=_stack(rotations, -2),
+        displacement=_stack(displacements, -2),
+        curvature=_stack(curvatures, -2),
+        faults=posture.skeleton.faults + faults,
+    )
+
+
+def _stack(arrays: Sequence[Array], axis: int) -> Array:
+    xp, same_kind = as_arrays(*arrays)
+    return xp.stack(xp.broadcast_arrays(*same_kind), axis=axis)
