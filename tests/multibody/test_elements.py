@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pytest
 
@@ -65,7 +67,7 @@ SWING = revolute("swing", GROUND, "bob", ORIGIN, Y)
         (lambda: Sampled([0.0, 1.0], [1.0]), "two equal lists"),
     ],
 )
-def test_elements_refuse_what_cannot_be(make, says):
+def test_elements_refuse_what_cannot_be(make: Any, says: Any) -> None:
     with pytest.raises(ModelError, match=says):
         make()
 
@@ -95,17 +97,17 @@ def test_elements_refuse_what_cannot_be(make, says):
         ({"down": (0, 0, float("inf"))}, "system: down is inf"),
     ],
 )
-def test_systems_refuse_what_does_not_fit(change, says):
+def test_systems_refuse_what_does_not_fit(change: Any, says: Any) -> None:
     with pytest.raises(ModelError, match=says):
         System((BOB,), (SWING,)).replace(**change)
 
 
-def test_a_machine_that_cannot_move_is_refused():
+def test_a_machine_that_cannot_move_is_refused() -> None:
     with pytest.raises(ModelError, match="nothing can move"):
         build(System((BOB,), (fixed("weld", GROUND, "bob"),)))
 
 
-def test_parameters_without_a_value_are_named():
+def test_parameters_without_a_value_are_named() -> None:
     model = build(System((Body("bob", parameter("ballast"), (0, 0, 1)),), (SWING,)))
     with pytest.raises(ModelError, match="no value for the parameters ballast"):
         assemble(model)
@@ -114,24 +116,24 @@ def test_parameters_without_a_value_are_named():
     assert accelerations(assemble(model, {"swing": 0.1}, {"ballast": 2.0})).a == pytest.approx(-9.81 * np.sin(0.1))
 
 
-def test_a_loop_that_cannot_close_is_named():
+def test_a_loop_that_cannot_close_is_named() -> None:
     rod = close_distance("rod", GROUND, "bob", ((5, 0, 0), (0, 0, 1)), 1.0)
     with pytest.raises(ModelError, match=r"rod \(distance\): the loop cannot close"):
         assemble(build(System((BOB,), (SWING,), (rod,))))
 
 
-def test_a_constraint_that_cannot_vary_is_named():
+def test_a_constraint_that_cannot_vary_is_named() -> None:
     rod = close_distance("rod", GROUND, GROUND, ((0, 0, 0), (0, 0, 1)), 2.0)
     with pytest.raises(ModelError, match=r"rod \(distance\): a constraint that cannot vary"):
         assemble(build(System((BOB,), (SWING,), (rod,))))
 
 
-def test_the_number_of_freedoms_left_is_said():
+def test_the_number_of_freedoms_left_is_said() -> None:
     with pytest.raises(ModelError, match="the machine has 1 degrees of freedom left, not 0"):
         assemble(build(System((BOB,), (SWING,), independent=())))
 
 
-def test_accelerations_that_are_not_determined_are_refused():
+def test_accelerations_that_are_not_determined_are_refused() -> None:
     with pytest.raises(ModelError, match="not determined: a freedom has no mass"):
         accelerations(assemble(build(System((Body("ghost"),), (revolute("swing", GROUND, "ghost", ORIGIN, Y),)))))
 
@@ -157,17 +159,17 @@ def test_accelerations_that_are_not_determined_are_refused():
         (lambda s: steady_motion(s.model, {"swing": 0.5}, resting=["swing"]), "no steady motion found"),
     ],
 )
-def test_questions_about_names_that_do_not_exist(act, says):
+def test_questions_about_names_that_do_not_exist(act: Any, says: Any) -> None:
     with pytest.raises(ModelError, match=says):
         act(assemble(build(System((BOB,), (SWING,)))))
 
 
-def test_a_sensor_of_no_known_kind_is_refused():
+def test_a_sensor_of_no_known_kind_is_refused() -> None:
     with pytest.raises(ModelError, match="sensor gyro: unknown kind 'smell'"):
         build(System((BOB,), (SWING,), sensors=(Sensor("gyro", "bob", kind="smell"),)))
 
 
-def test_every_joint_has_its_freedoms():
+def test_every_joint_has_its_freedoms() -> None:
     made = {
         fixed("j", GROUND, "bob"): 0,
         revolute("j", GROUND, "bob", ORIGIN, Y): 1,

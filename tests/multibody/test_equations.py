@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import casadi as ca
 import numpy as np
 import pytest
@@ -33,11 +35,11 @@ from singletrack.multibody import (
 INERTIA = (0.3, 0.4, 0.5, 0.02, -0.03, 0.01)
 
 
-def body(name, x):
+def body(name: Any, x: Any) -> Any:
     return Body(name, 1.5 + x, (x, 0.1 - x, 0.3 * x), INERTIA)
 
 
-def chain():
+def chain() -> Any:
     """All kinds of joints, one after the other, with springs."""
     joints = [
         free("a", GROUND, "1", (0.1, 0.2, 0.3)),
@@ -52,7 +54,7 @@ def chain():
     return System([body(str(i), 0.2 * i) for i in range(1, 8)], joints, springs=springs)
 
 
-def test_newton_and_euler_agree_with_lagrange():
+def test_newton_and_euler_agree_with_lagrange() -> None:
     model = build(chain())
     n = len(model.system.coordinates)
     q, u, a = (ca.MX.sym(name, n) for name in "qua")
@@ -72,7 +74,7 @@ def test_newton_and_euler_agree_with_lagrange():
         np.testing.assert_allclose(own_force, force.full().ravel(), rtol=0, atol=1e-11 * np.max(abs(force.full())))
 
 
-def test_the_mass_matrix_is_symmetric_and_positive():
+def test_the_mass_matrix_is_symmetric_and_positive() -> None:
     model = build(chain())
     rng = np.random.default_rng(2)
     for q in rng.uniform(-1.0, 1.0, (5, len(model.system.coordinates))):
@@ -81,14 +83,14 @@ def test_the_mass_matrix_is_symmetric_and_positive():
         assert np.all(np.linalg.eigvalsh(mass) > 0.0)
 
 
-def test_far_from_the_origin_nothing_changes():
+def test_far_from_the_origin_nothing_changes() -> None:
     model = build(chain())
     rates = dict(zip(model.system.coordinates, np.random.default_rng(3).uniform(-1, 1, 18), strict=True))
     here, there = (accelerations(move(assemble(model, {"a.x": x}), rates)) for x in (0.0, 2.0**10))
     np.testing.assert_allclose(there.a, here.a, rtol=1e-10, atol=1e-10)
 
 
-def test_a_tumbling_body_keeps_energy_and_angular_momentum():
+def test_a_tumbling_body_keeps_energy_and_angular_momentum() -> None:
     inertia = np.array([1.0, 2.0, 2.5])
     system = System([Body("book", 1.0, inertia=tuple(inertia))], [free("fly", GROUND, "book")], gravity=0.0)
     state = move(assemble(build(system)), {"fly.1": 0.3, "fly.2": 1.1, "fly.3": 0.2})
@@ -97,7 +99,7 @@ def test_a_tumbling_body_keeps_energy_and_angular_momentum():
     yaw, lean, pitch = (run.q.sel(coordinate=f"fly.{i}").to_numpy() for i in (1, 2, 3))
     rates = np.array([run.u.sel(coordinate=f"fly.{i}") for i in (1, 2, 3)])
 
-    def turn(axis, angle):
+    def turn(axis: Any, angle: Any) -> Any:
         c, s = np.cos(angle), np.sin(angle)
         i, j = [(1, 2), (2, 0), (0, 1)][axis]
         matrix = np.zeros((len(angle), 3, 3))
@@ -117,7 +119,7 @@ def test_a_tumbling_body_keeps_energy_and_angular_momentum():
     assert np.ptp(lean) > 0.5  # it does tumble
 
 
-def test_inputs_act_as_forces_and_torques_do():
+def test_inputs_act_as_forces_and_torques_do() -> None:
     bob = Body("bob", 2.0, (0, 0, 1), (0.1, 0.1, 0.1))
     swing = revolute("swing", GROUND, "bob", (0, 0, 0), (0, 1, 0))
     inputs = [
@@ -143,7 +145,7 @@ def test_inputs_act_as_forces_and_torques_do():
     np.testing.assert_allclose(small.B_matrix, [[0, 0, 0, 0], [0.5 / 2.1, 0.5 / 2.1, 1 / 2.1, 1 / 2.1]])
 
 
-def test_springs_and_dampers_pull_and_brake():
+def test_springs_and_dampers_pull_and_brake() -> None:
     bob = Body("bob", 2.0)
     slide = prismatic("slide", GROUND, "bob", (1, 0, 0), stiffness=3.0, damping=0.5, preload=1.0)
     spring = Spring("coil", GROUND, "bob", (-1, 0, 0), (0, 0, 0), stiffness=7.0, damping=0.25, rest=0.5, preload=2.0)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pytest
 import sympy as sp
@@ -31,7 +33,7 @@ Y, Z = (0, 1, 0), (0, 0, 1)
 ORIGIN = (0, 0, 0)
 
 
-def rod(name, start, end, mass=1.0):
+def rod(name: Any, start: Any, end: Any, mass: Any = 1.0) -> Any:
     """A slender rod between two points."""
     start, end = np.array(start, dtype=float), np.array(end, dtype=float)
     length = np.linalg.norm(end - start)
@@ -41,7 +43,7 @@ def rod(name, start, end, mass=1.0):
     return Body(name, mass, (start + end) / 2, (i[0, 0], i[1, 1], i[2, 2], i[0, 1], i[1, 2], i[0, 2]))
 
 
-def four_bar(lengths, closure):
+def four_bar(lengths: Any, closure: Any) -> Any:
     """Crank, coupler and rocker in the plane y = 0, drawn along x, up to the closing joint at the rocker's end."""
     crank, coupler, rocker, base = lengths
     joint = (crank + coupler, 0, 0)
@@ -69,7 +71,7 @@ LENGTHS = (1.0, 3.0, 2.5, 3.5)
 
 
 @pytest.mark.parametrize("closure", ["plane", "ball", "hinge"])
-def test_four_bar_obeys_freudenstein_whatever_the_closing_joint(closure):
+def test_four_bar_obeys_freudenstein_whatever_the_closing_joint(closure: Any) -> None:
     model = four_bar(LENGTHS, closure)
     a, b, c, d = LENGTHS
     for crank in np.linspace(0.2, 6.0, 7):
@@ -82,7 +84,7 @@ def test_four_bar_obeys_freudenstein_whatever_the_closing_joint(closure):
     assert len(state.partition.redundant) == redundant[closure]
 
 
-def test_redundant_constraints_are_named_and_change_nothing():
+def test_redundant_constraints_are_named_and_change_nothing() -> None:
     motions = {}
     for closure in ("plane", "ball", "hinge"):
         state = assemble(four_bar(LENGTHS, closure), {"crank": -1.0}, guess={"rocker": -1.5})
@@ -92,24 +94,24 @@ def test_redundant_constraints_are_named_and_change_nothing():
     np.testing.assert_allclose(motions["hinge"], motions["plane"], rtol=1e-11)
 
 
-def test_a_turning_four_bar_changes_its_independent_speed_when_it_must():
+def test_a_turning_four_bar_changes_its_independent_speed_when_it_must() -> None:
     model = four_bar(LENGTHS, "plane")
-    state = move(
-        assemble(model, {"crank": -1.0}, guess={"rocker": -1.5}, independent=["rocker"]), {"rocker": 3.0}
-    )
+    state = move(assemble(model, {"crank": -1.0}, guess={"rocker": -1.5}, independent=["rocker"]), {"rocker": 3.0})
     run = simulate(state, np.linspace(0.0, 6.0, 61))
     assert np.ptp(run.q.sel(coordinate="crank").to_numpy()) > 2 * np.pi  # the rocker passes its dead points
-    np.testing.assert_allclose(run.energy.to_numpy(), float(run.energy[0]), rtol=0, atol=1e-8 * float(run.kinetic_energy.max()))
+    np.testing.assert_allclose(
+        run.energy.to_numpy(), float(run.energy[0]), rtol=0, atol=1e-8 * float(run.kinetic_energy.max())
+    )
     assert run.residual.max() < 1e-12
 
 
-def test_a_flat_parallelogram_is_singular():
+def test_a_flat_parallelogram_is_singular() -> None:
     with pytest.raises(ModelError, match="singular configuration: pin"):
         assemble(four_bar((1.0, 3.0, 1.0, 3.0), "plane"), {"crank": 0.0, "rocker": 0.0, "coupler": 0.0})
 
 
-def test_slider_crank():
-    r, l = 0.3, 1.0  # noqa: E741
+def test_slider_crank() -> None:
+    r, l = 0.3, 1.0
     joints = [
         revolute("crank", GROUND, "crank", ORIGIN, Y),
         revolute("rod", "crank", "rod", (r, 0, 0), Y),
@@ -117,7 +119,9 @@ def test_slider_crank():
     ]
     bodies = [rod("crank", ORIGIN, (r, 0, 0)), rod("rod", (r, 0, 0), (r + l, 0, 0)), Body("piston", 2.0, (r + l, 0, 0))]
     pin = close_point("pin", "rod", "piston", (r + l, 0, 0), normal=Y)
-    model = build(System(bodies, joints, [pin], inputs=[CoordinateForce("gas", "slide")], gravity=0.0, independent=["crank"]))
+    model = build(
+        System(bodies, joints, [pin], inputs=[CoordinateForce("gas", "slide")], gravity=0.0, independent=["crank"])
+    )
     assert assemble(model).partition.redundant == ()
     for angle in (0.4, 1.3, 2.9, 4.4):
         state = move(assemble(model, {"crank": angle}, guess={"rod": -angle}), {"crank": 5.0})
@@ -130,7 +134,7 @@ def test_slider_crank():
         assert accelerations(still, {"gas": 1.0}).a[0] == pytest.approx(turning * ratio, rel=1e-12)
 
 
-def bricard():
+def bricard() -> Any:
     """Six rods along the edges of a cube, hinged at right angles to both neighbours: threefold symmetric."""
     corners = np.array([[0, 0, 0], [1, 0, 0], [1, -1, 0], [1, -1, 1], [0, -1, 1], [0, 0, 1]], dtype=float)
     edges = np.diff(np.vstack([corners, corners[:1]]), axis=0)
@@ -142,7 +146,7 @@ def bricard():
     return build(System(bodies, joints, [loop], down=(0, -1, 0)))
 
 
-def test_bricards_overconstrained_loop_moves():
+def test_bricards_overconstrained_loop_moves() -> None:
     model = bricard()
     state = assemble(model)
     assert len(state.partition.redundant) == 1
@@ -151,10 +155,12 @@ def test_bricards_overconstrained_loop_moves():
     run = simulate(state, np.linspace(0.0, 3.0, 61))
     assert np.ptp(run.q.to_numpy()) > 0.5
     assert run.residual.max() < 1e-11  # of all constraints, the redundant one too
-    np.testing.assert_allclose(run.energy.to_numpy(), float(run.energy[0]), rtol=0, atol=1e-8 * float(run.kinetic_energy.max()))
+    np.testing.assert_allclose(
+        run.energy.to_numpy(), float(run.energy[0]), rtol=0, atol=1e-8 * float(run.kinetic_energy.max())
+    )
 
 
-def governor(ball, sleeve, length):
+def governor(ball: Any, sleeve: Any, length: Any) -> Any:
     """Porter's governor: two arms from the top of a shaft, two links from the balls to a sleeve, z down."""
     bodies, joints, loops = [Body("shaft", 0.0, inertia=(0, 0, 0.0))], [], []
     joints.append(revolute("spin", GROUND, "shaft", ORIGIN, Z))
@@ -169,7 +175,7 @@ def governor(ball, sleeve, length):
     return build(System(bodies, joints, loops, independent=("spin", "right arm")))
 
 
-def test_flyball_governor_height_and_oscillation():
+def test_flyball_governor_height_and_oscillation() -> None:
     ball, sleeve, length, g = 1.5, 4.0, 0.3, 9.81
     rate = 1.3 * np.sqrt((1 + sleeve / ball) * g / length)
     model = governor(ball, sleeve, length)
@@ -189,7 +195,7 @@ def test_flyball_governor_height_and_oscillation():
     np.testing.assert_allclose(eigenvalues.real, 0.0, atol=1e-6)
 
 
-def squeezer():
+def squeezer() -> Any:
     """Andrews' squeezer mechanism, drawn with all angles at zero.
 
     Parameters and reference solution: Mazzia, Magherini, Test Set for Initial Value Problem Solvers, release 2.4
@@ -201,10 +207,10 @@ def squeezer():
     a, b, c = (-0.06934, -0.00227), (-0.03635, 0.03273), (0.014, 0.072)
     sc, sd = 18e-3, 2e-2
 
-    def at(x, y):
+    def at(x: Any, y: Any) -> Any:
         return (x, y, 0.0)
 
-    def link(name, mass, inertia, centre):
+    def link(name: Any, mass: Any, inertia: Any, centre: Any) -> Any:
         return Body(name, mass, centre, (inertia,) * 3)
 
     bodies = [
@@ -248,7 +254,7 @@ REFERENCE = {
 }
 
 
-def test_andrews_squeezer():
+def test_andrews_squeezer() -> None:
     guess = {"gamma": 0.45, "phi": 0.2, "delta": 0.5, "omega": -0.2, "epsilon": 1.2, "beta": -0.06}
     state = assemble(squeezer(), {"theta": 0.0}, guess=guess)
     initial = {
@@ -269,7 +275,7 @@ def test_andrews_squeezer():
     assert run.residual.max() < 1e-13
 
 
-def test_a_rod_of_fixed_length_keeps_it():
+def test_a_rod_of_fixed_length_keeps_it() -> None:
     bodies = [Body("one", 1.0, (0, 0, 1)), Body("two", 2.0, (1, 0, 1))]
     joints = [revolute("a", GROUND, "one", ORIGIN, Y), revolute("b", GROUND, "two", (1, 0, 0), Y)]
     model = build(System(bodies, joints, [close_distance("rod", "one", "two", ((0, 0, 1), (1, 0, 1)), 1.0)]))

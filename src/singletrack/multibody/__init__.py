@@ -1,5 +1,7 @@
 """A multibody engine: from bodies, joints, closed loops and rolling wheels to motion, and to its linearisation."""
 
+from singletrack.multibody.bicycle import bicycle_model, ride
+from singletrack.multibody.coefficients import Coefficients, coefficients
 from singletrack.multibody.connections import (
     Closure,
     CoordinateForce,
@@ -12,7 +14,7 @@ from singletrack.multibody.connections import (
     close_joint,
     close_point,
 )
-from singletrack.multibody.dynamics import Response, accelerations
+from singletrack.multibody.dynamics import Response, accelerations, loop_forces, wheel_forces
 from singletrack.multibody.elements import (
     GROUND,
     Body,
@@ -34,10 +36,9 @@ from singletrack.multibody.linearise import Linearisation, SpeedPolynomials, lin
 from singletrack.multibody.model import Model, State, assemble, build, move
 from singletrack.multibody.simulate import Event, simulate
 from singletrack.multibody.system import System
-from singletrack.multibody.bicycle import bicycle_model, ride
-from singletrack.multibody.coefficients import Coefficients, coefficients
 
 __all__ = [
+    "GROUND",
     "Body",
     "Closure",
     "Coefficients",
@@ -46,7 +47,6 @@ __all__ = [
     "Event",
     "Force",
     "Function",
-    "GROUND",
     "Joint",
     "Linearisation",
     "Model",
@@ -73,6 +73,7 @@ __all__ = [
     "fixed",
     "free",
     "linearise",
+    "loop_forces",
     "move",
     "parameter",
     "parameters",
@@ -85,4 +86,5 @@ __all__ = [
     "spherical",
     "steady_motion",
     "universal",
+    "wheel_forces",
 ]

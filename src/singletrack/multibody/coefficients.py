@@ -5,12 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from singletrack.arrays import Array
 from singletrack.multibody.bicycle import bicycle_model
 from singletrack.multibody.linearise import speed_polynomials
 from singletrack.multibody.model import assemble
 
 if TYPE_CHECKING:
-    from singletrack.arrays import Array
     from singletrack.parameters import Bicycle, Rider
 
 __all__ = ["Coefficients", "coefficients"]

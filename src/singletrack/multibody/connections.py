@@ -3,16 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Literal
+from typing import Literal
 
 import numpy as np
 
 from singletrack.errors import ModelError
 from singletrack.multibody.checks import check_axis, check_number, check_vector, is_number
-from singletrack.multibody.elements import GROUND
-
-if TYPE_CHECKING:
-    from singletrack.multibody.elements import Scalar, Vector
+from singletrack.multibody.elements import GROUND, Scalar, Vector
 
 __all__ = [
     "Closure",

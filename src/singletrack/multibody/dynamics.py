@@ -8,18 +8,18 @@ from typing import TYPE_CHECKING, Any
 import casadi as ca
 import numpy as np
 
+from singletrack.arrays import Array
 from singletrack.errors import ModelError, unknown_name
 from singletrack.multibody.model import span_of
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from singletrack.arrays import Array
     from singletrack.multibody.model import Model, State
     from singletrack.multibody.partition import Partition
     from singletrack.multibody.system import System
 
-__all__ = ["Response", "accelerations", "reduced"]
+__all__ = ["Response", "accelerations", "loop_forces", "reduced", "wheel_forces"]
 
 MASSLESS = 1e-13
 
@@ -114,6 +114,51 @@ def accelerations(state: State, inputs: Mapping[str, float] | None = None) -> Re
     _, a, multipliers = function(state.q, ui, f, state.parameters)
     a, multipliers = a.full().ravel(), multipliers.full().ravel()
     return Response(a, multipliers)
+
+
+def loop_forces(state: State, inputs: Mapping[str, float] | None = None) -> dict[str, Array]:
+    """Return the force (3,) of the first body on the second of every closed loop, in the ground's frame, N.
+
+    Examples
+    --------
+    How hard does the leaned rider press? The force of each hand on the handlebar, forward and down:
+
+    >>> from singletrack import load_bicycle, load_rider
+    >>> from singletrack.multibody import bicycle_model, ride
+    >>> leaned = ride(bicycle_model(load_bicycle("stratos"), load_rider("rider-a"), "leaned"), 0.0)
+    >>> forces = loop_forces(leaned)
+    >>> list(forces)
+    ['right hand', 'left hand']
+    >>> bool(forces["left hand"][2] > 0)
+    True
+    """
+    multipliers = accelerations(state, inputs).multipliers
+    forces, _ = state.model.equations.loop_wrenches(state.q, multipliers, state.parameters)
+    names = [closure.name for closure in state.model.system.closures]
+    return dict(zip(names, forces.full().T, strict=True))
+
+
+def wheel_forces(state: State, inputs: Mapping[str, float] | None = None) -> dict[str, Array]:
+    """Return the force (longitudinal, lateral, normal) of the ground on every wheel, N.
+
+    The normal force is positive when the wheel presses on the ground.
+
+    >>> from singletrack import load_bicycle
+    >>> from singletrack.multibody import bicycle_model, ride
+    >>> loads = wheel_forces(ride(bicycle_model(load_bicycle("benchmark")), 0.0))
+    >>> round(sum(load[2] for load in loads.values()) / 9.81, 9)  # kg
+    94.0
+    """
+    by_wheel = split_wheel_forces(state.model.system, accelerations(state, inputs).multipliers[None])
+    return dict(zip((wheel.name for wheel in state.model.system.wheels), by_wheel[0], strict=True))
+
+
+def split_wheel_forces(system: System, multipliers: Array) -> Array:
+    """Return (k, wheels, 3) longitudinal, lateral and normal forces from multipliers (k, rows), N."""
+    holonomic, wheels = len(system.holonomic_rows), len(system.wheels)
+    normal = -multipliers[:, holonomic - wheels : holonomic]
+    rolling = multipliers[:, holonomic:].reshape(len(multipliers), wheels, 2)
+    return np.concatenate([rolling, normal[:, :, None]], axis=2)
 
 
 def _refuse_massless(state: State) -> None:

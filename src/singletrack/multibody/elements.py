@@ -9,17 +9,15 @@ Any number may be a :func:`parameter`, whose value is chosen when the model is u
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cache
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import Any, TypeAlias
 
 import casadi as ca
 
 from singletrack.errors import ModelError
 from singletrack.multibody.checks import check_axis, check_inertia, check_number, check_vector, is_number
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
 
 __all__ = [
     "GROUND",

@@ -18,17 +18,16 @@ import casadi as ca
 
 from singletrack.errors import ModelError
 from singletrack.multibody.constraints import (
+    Contact,
     closure_wrench,
     constraint_rates,
     holonomic_residual,
     wheel_contact,
 )
 from singletrack.multibody.forces import applied_wrenches, coordinate_forces, kinetic_energy, potential_energy
-from singletrack.multibody.kinematics import SX, column, forward, inverse, unit
+from singletrack.multibody.kinematics import SX, Frame, column, forward, inverse, unit
 
 if TYPE_CHECKING:
-    from singletrack.multibody.constraints import Contact
-    from singletrack.multibody.kinematics import Frame
     from singletrack.multibody.system import System
 
 __all__ = ["Equations", "derive"]

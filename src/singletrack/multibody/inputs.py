@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Protocol, TypeAlias
 
 import numpy as np
 
+from singletrack.arrays import Array
 from singletrack.errors import ModelError, unknown_name
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
+    from collections.abc import Mapping
 
-    from singletrack.arrays import Array
     from singletrack.multibody.system import System
 
 __all__ = ["Constant", "Function", "Pulse", "Sampled", "Signal", "signals"]

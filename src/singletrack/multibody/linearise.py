@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from singletrack.arrays import Array
 from singletrack.errors import ModelError, unknown_name
 from singletrack.multibody.dynamics import accelerations, input_vector
 from singletrack.multibody.model import State, move
@@ -20,7 +21,6 @@ from singletrack.multibody.variations import vary
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
-    from singletrack.arrays import Array
     from singletrack.multibody.dynamics import Response
     from singletrack.multibody.variations import Variations
 

@@ -7,17 +7,15 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from singletrack.arrays import Array
 from singletrack.errors import ModelError, unknown_name
-from singletrack.multibody.equations import derive
-from singletrack.multibody.partition import RANK_TOLERANCE, independent_rows, partition
+from singletrack.multibody.equations import Equations, derive
+from singletrack.multibody.partition import RANK_TOLERANCE, Partition, independent_rows, partition
+from singletrack.multibody.system import System
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
-    from singletrack.arrays import Array
-    from singletrack.multibody.equations import Equations
-    from singletrack.multibody.partition import Partition
-    from singletrack.multibody.system import System
 
 __all__ = ["Model", "State", "assemble", "build", "move"]
 

@@ -16,7 +16,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from singletrack.multibody.dynamics import reduced
+from singletrack.multibody.dynamics import reduced, split_wheel_forces
+from singletrack.multibody.model import State
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -25,7 +26,6 @@ if TYPE_CHECKING:
 
     from singletrack.arrays import Array
     from singletrack.multibody.inputs import Signal
-    from singletrack.multibody.model import State
 
 __all__ = ["Sample", "gather"]
 
@@ -51,15 +51,6 @@ def _responses(samples: Sequence[Sample], inputs: Array) -> tuple[Array, Array]:
         multipliers.append(m_part.full().T)
         start += len(states)
     return np.vstack(a), np.vstack(multipliers)
-
-
-def _wheel_forces(state: State, multipliers: Array) -> Array:
-    """Return (k, wheels, 3): longitudinal, lateral and normal force on every wheel, N."""
-    system = state.model.system
-    holonomic, wheels = len(system.holonomic_rows), len(system.wheels)
-    normal = -multipliers[:, holonomic - wheels : holonomic]
-    rolling = multipliers[:, holonomic:].reshape(len(multipliers), wheels, 2)
-    return np.concatenate([rolling, normal[:, :, None]], axis=2)
 
 
 def _blocks(matrix: Any, count: int, width: int) -> Array:
@@ -101,7 +92,7 @@ def gather(
                 equations.sensors(q.T, u.T, p).full().T.reshape(len(t), len(system.sensors)),
             ),
             "contact": (("time", "wheel", "axis"), _blocks(points, len(t), wheels)),
-            "wheel_force": (("time", "wheel", "component"), _wheel_forces(start, multipliers)),
+            "wheel_force": (("time", "wheel", "component"), split_wheel_forces(system, multipliers)),
             "loop_force": (axes, _blocks(forces, len(t), loops)),
             "loop_torque": (axes, _blocks(torques, len(t), loops)),
             "kinetic_energy": ("time", kinetic),

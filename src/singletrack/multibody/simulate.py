@@ -2,26 +2,27 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from singletrack.arrays import Array
 from singletrack.errors import ModelError, unknown_name
 from singletrack.multibody.dynamics import reduced
-from singletrack.multibody.inputs import signals
+from singletrack.multibody.inputs import Signal, signals
 from singletrack.multibody.model import State
 from singletrack.multibody.partition import partition
 from singletrack.multibody.results import Sample, gather
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping, Sequence
+    from collections.abc import Mapping
 
     import xarray as xr
 
-    from singletrack.arrays import Array
-    from singletrack.multibody.inputs import Given, Signal
+    from singletrack.multibody.inputs import Given
 
 __all__ = ["Event", "simulate"]
 

@@ -3,19 +3,18 @@
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from singletrack.errors import ModelError, unknown_name
 from singletrack.multibody.checks import check_number, check_vector, is_number
-from singletrack.multibody.connections import CoordinateForce, Force, Torque
-from singletrack.multibody.elements import GROUND
+from singletrack.multibody.connections import Closure, CoordinateForce, Force, Sensor, Spring, Torque, Wheel
+from singletrack.multibody.elements import GROUND, Body, Joint, Scalar, Vector
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
+    from collections.abc import Iterable
 
-    from singletrack.multibody.connections import Closure, Sensor, Spring, Wheel
-    from singletrack.multibody.elements import Body, Joint, Scalar, Vector
 
 __all__ = ["System"]
 

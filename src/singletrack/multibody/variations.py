@@ -19,10 +19,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from singletrack.arrays import Array
 from singletrack.multibody.model import span_of
 
 if TYPE_CHECKING:
-    from singletrack.arrays import Array
     from singletrack.multibody.dynamics import Response
     from singletrack.multibody.model import State
 
