@@ -36,6 +36,7 @@ from singletrack.multibody.linearise import Linearisation, SpeedPolynomials, lin
 from singletrack.multibody.model import Model, State, assemble, build, move
 from singletrack.multibody.simulate import Event, simulate
 from singletrack.multibody.system import System
+from singletrack.multibody.turning import free_turns
 
 __all__ = [
     "GROUND",
@@ -72,6 +73,7 @@ __all__ = [
     "cylindrical",
     "fixed",
     "free",
+    "free_turns",
     "linearise",
     "loop_forces",
     "move",
