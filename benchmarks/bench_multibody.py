@@ -30,7 +30,7 @@ def design(name: Any) -> Any:
 @pytest.mark.parametrize("name", RIDES)
 def test_derive_and_linearise(benchmark: Any, name: Any) -> Any:
     def work() -> Any:
-        bicycle._KINDS.clear()
+        bicycle.KINDS.clear()
         return linearise(ride(bicycle_model(*design(name)), 5.0))
 
     assert benchmark(work).speeds == ("lean", "steer", "rear wheel")

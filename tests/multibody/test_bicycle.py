@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -15,7 +16,9 @@ from singletrack.multibody import (
     Event,
     Pulse,
     accelerations,
+    assemble,
     bicycle_model,
+    build,
     coefficients,
     free_turns,
     linearise,
@@ -73,14 +76,17 @@ def test_position_heading_and_wheel_angles_do_not_matter(model: Any) -> Any:
         np.testing.assert_allclose(getattr(elsewhere, name), getattr(small, name), atol=1e-11)
 
 
-def test_springs_and_dampers_at_the_steer_add_to_the_polynomials() -> Any:
-    model = bicycle_model(load_bicycle("benchmark"))
+def test_the_state_space_goes_to_python_control(model: Any) -> Any:
+    small = linearise(ride(model, 5.0))
+    system = small.to_control()
+    assert system.state_labels == ["lean", "steer", "lean'", "steer'", "rear wheel'"]
+    assert system.input_labels == ["lean torque", "steer torque", "rear wheel torque"]
+    np.testing.assert_allclose(np.sort_complex(system.poles()), small.eigenvalues(), atol=1e-9)
+
+
+def test_springs_and_dampers_at_the_steer_add_to_the_polynomials(model: Any) -> Any:
     joints = list(model.system.joints)
     steer = next(i for i, joint in enumerate(joints) if joint.name == "steer")
-    from dataclasses import replace
-
-    from singletrack.multibody import assemble, build
-
     motion = replace(joints[steer].motions[0], stiffness=3.0, damping=0.5)
     joints[steer] = replace(joints[steer], motions=(motion,))
     sprung = build(model.system.replace(joints=tuple(joints)))
@@ -256,8 +262,6 @@ def test_mirrored_states_have_mirrored_accelerations(model: Any) -> Any:
 
 
 def test_gravity_can_be_another(model: Any) -> Any:
-    from singletrack.multibody import assemble
-
     weightless = assemble(model, {"lean": 0.3}, {"gravity": 0.0})
     np.testing.assert_allclose(accelerations(weightless).a, 0.0, atol=1e-12)
     assert move(weightless, {"rear wheel": 1.0}).rate("rear wheel") == 1.0

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+import casadi as ca
 import numpy as np
 import pytest
 import sympy as sp
@@ -21,6 +22,7 @@ from singletrack.multibody import (
     close_distance,
     close_joint,
     close_point,
+    free,
     linearise,
     move,
     prismatic,
@@ -108,6 +110,14 @@ def test_a_turning_four_bar_changes_its_independent_speed_when_it_must() -> None
 def test_a_flat_parallelogram_is_singular() -> None:
     with pytest.raises(ModelError, match="singular configuration: pin"):
         assemble(four_bar((1.0, 3.0, 1.0, 3.0), "plane"), {"crank": 0.0, "rocker": 0.0, "coupler": 0.0})
+
+
+def test_a_parallelogram_that_turns_becomes_singular_when_flat() -> Any:
+    model = four_bar((1.0, 3.0, 1.0, 3.0), "plane")
+    state = move(assemble(model, {"crank": -1.0}, guess={"rocker": -1.0, "coupler": 1.0}), {"crank": -5.0})
+    assert state["rocker"] == pytest.approx(-1.0, abs=1e-12)
+    with pytest.raises(ModelError, match=r"singular (at|between) t = .*more than one way"):
+        simulate(state, np.linspace(0.0, 3.0, 11))
 
 
 def test_slider_crank() -> None:
@@ -284,3 +294,49 @@ def test_a_rod_of_fixed_length_keeps_it() -> None:
     # a parallelogram of point masses swings as one pendulum; the rod carries what the masses do not share
     assert accelerations(state).a == pytest.approx([-9.81 * np.sin(0.5)] * 2)
     assert accelerations(state).multipliers == pytest.approx([0.0], abs=1e-12)
+
+
+CLOSINGS = {"fixed": 0, "revolute": 1, "prismatic": 1, "cylindrical": 2, "universal": 2, "planar": 3}
+
+
+@pytest.mark.parametrize("kind", CLOSINGS)
+def test_a_loop_closed_by_a_joint_leaves_that_joints_freedoms(kind: Any) -> Any:
+    body = Body("body", 1.0, (0.3, 0, 0), (0.1, 0.2, 0.2))
+    second_axis = (1, 0, 0) if kind == "universal" else None
+    closure = close_joint("end", kind, GROUND, "body", point=(0.1, 0.2, 0.3), axis=(0, 1, 2), second_axis=second_axis)
+    model = build(System([body], [free("j", GROUND, "body")], [closure]))
+    state = assemble(model, guess={"j.x": 0.2, "j.y": -0.1, "j.1": 0.3, "j.2": -0.2, "j.3": 0.1})
+    assert len(state.freedoms) == CLOSINGS[kind]
+    assert state.partition.redundant == ()
+    assert f"{CLOSINGS[kind]} degrees of freedom" in state.summary()
+
+
+@pytest.mark.parametrize("kind", [*CLOSINGS, "point", "distance"])
+def test_closures_their_rates_and_their_forces_belong_together(kind: Any) -> Any:
+    points = (0.1, 0.2, 0.3), (0.5, -0.2, 0.4)
+    closure = {
+        "point": close_point("end", "one", "two", points[0], second_point=points[1]),
+        "distance": close_distance("end", "one", "two", points, 0.7),
+    }.get(kind) or close_joint(
+        "end", kind, "one", "two", point=points[0], axis=(0, 1, 2), second_point=points[1], second_axis=(1, 0, 1)
+    )
+    bodies = [Body("one", 1.0), Body("two", 1.0)]
+    joints = [free("i", GROUND, "one"), free("j", GROUND, "two")]
+    model = build(System(bodies, joints, [closure]))
+    rng = np.random.default_rng(5)
+    q, multipliers = rng.uniform(-1, 1, 12), rng.uniform(-1, 1, len(closure.rows))
+    p = model.parameters()
+    q_symbol = ca.MX.sym("q", 12)
+    gradient = ca.Function("g", [q_symbol], [ca.jacobian(model.equations.holonomic(q_symbol, p)[0], q_symbol)])
+    np.testing.assert_allclose(model.holonomic(q, p)[1], gradient(q).full(), atol=1e-13)
+    force, torque = (value.full().ravel() for value in model.equations.loop_wrenches(q, multipliers, p))
+    pushed = model.holonomic(q, p)[1].T @ multipliers  # forces on x, y, z, yaw, lean, pitch of both bodies
+    np.testing.assert_allclose(pushed[6:9], force, atol=1e-13)
+    np.testing.assert_allclose(pushed[:3], -force, atol=1e-13)
+    c, s = np.cos(q[9:]), np.sin(q[9:])
+    Zr = np.array([[c[0], -s[0], 0], [s[0], c[0], 0], [0, 0, 1]])
+    Xr = np.array([[1, 0, 0], [0, c[1], -s[1]], [0, s[1], c[1]]])
+    Yr = np.array([[c[2], 0, s[2]], [0, 1, 0], [-s[2], 0, c[2]]])
+    turns = np.array([[0, 0, 1], Zr[:, 0], (Zr @ Xr)[:, 1]])  # the axes of yaw, lean and pitch
+    moment = np.cross(Zr @ Xr @ Yr @ np.array(points[1]), force) + torque
+    np.testing.assert_allclose(pushed[9:], turns @ moment, atol=1e-12)

@@ -34,8 +34,8 @@ if TYPE_CHECKING:
 
 __all__ = ["bicycle_model", "ride"]
 
-MOST_KINDS = 16
-_KINDS: dict[Any, Model] = {}
+MOSTKINDS = 16
+KINDS: dict[Any, Model] = {}
 
 
 def _refuse_batches(*records: Bicycle | Rider | None) -> None:
@@ -151,11 +151,11 @@ def bicycle_model(
         parameters=numbers.values,
     )
     key = (numbers.key(), system.coordinates)
-    if key not in _KINDS:
-        while len(_KINDS) >= MOST_KINDS:
-            _KINDS.pop(next(iter(_KINDS)))
-        _KINDS[key] = build(system)
-    known = _KINDS[key]
+    if key not in KINDS:
+        while len(KINDS) >= MOSTKINDS:
+            KINDS.pop(next(iter(KINDS)))
+        KINDS[key] = build(system)
+    known = KINDS[key]
     return Model(system, known.equations, known.cache)
 
 

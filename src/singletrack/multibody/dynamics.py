@@ -146,7 +146,7 @@ def wheel_forces(state: State, inputs: Mapping[str, float] | None = None) -> dic
     >>> from singletrack import load_bicycle
     >>> from singletrack.multibody import bicycle_model, ride
     >>> loads = wheel_forces(ride(bicycle_model(load_bicycle("benchmark")), 0.0))
-    >>> round(sum(load[2] for load in loads.values()) / 9.81, 9)  # kg
+    >>> round(float(sum(load[2] for load in loads.values())) / 9.81, 9)  # kg
     94.0
     """
     by_wheel = split_wheel_forces(state.model.system, accelerations(state, inputs).multipliers[None])

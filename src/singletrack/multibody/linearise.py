@@ -67,6 +67,14 @@ class Linearisation:
         """Return the eigenvalues of the state space, 1/s, sorted by real, then imaginary part."""
         return np.sort_complex(np.linalg.eigvals(self.A_matrix))
 
+    def to_control(self) -> Any:
+        """Return the state space as a ``control.StateSpace`` with named states, inputs and outputs."""
+        import control  # noqa: PLC0415  # slow to import
+
+        states = [*self.coordinates, *(f"{name}'" for name in self.speeds)]
+        matrices = (self.A_matrix, self.B_matrix, self.C_matrix, self.D_matrix)
+        return control.ss(*matrices, states=states, inputs=list(self.inputs), outputs=list(self.outputs))
+
     def select(self, names: Sequence[str]) -> tuple[Array, Array, Array, Array]:
         """Return M, C, K, B of some freedoms that move by themselves, such as lean and steer in straight running.
 

@@ -95,6 +95,22 @@ class State:
         """Names of the coordinates whose rates are the independent speeds."""
         return tuple(self.model.system.coordinates[i] for i in self.partition.independent_speeds)
 
+    def summary(self) -> str:
+        """Return in words which speeds are independent and which constraints say nothing new.
+
+        >>> from singletrack.multibody import Body, System, assemble, build, revolute
+        >>> bob = Body("bob", 1.0, (0, 0, 1))
+        >>> model = build(System([bob], [revolute("swing", "ground", "bob", (0, 0, 0), (0, 1, 0))]))
+        >>> print(assemble(model).summary())
+        1 coordinates, 0 constraints, 1 degrees of freedom: swing
+        redundant constraints: none
+        """
+        system, redundant = self.model.system, self.partition.redundant
+        return (
+            f"{len(system.coordinates)} coordinates, {len(system.rows)} constraints, {len(self.freedoms)} degrees of "
+            f"freedom: {', '.join(self.freedoms) or 'none'}\nredundant constraints: {', '.join(redundant) or 'none'}"
+        )
+
 
 def _index(system: System, name: str) -> int:
     if name not in system.coordinates:

@@ -28,6 +28,7 @@ __all__ = ["Event", "right_side", "simulate"]
 
 WORSE = 30.0
 SINGULAR = 1e10
+GIVES_WAY = "the constraints lose rank, the loops can move in more than one way"
 
 
 @dataclass(frozen=True, eq=False)
@@ -195,7 +196,7 @@ def _stretch(run: _Run, start: float, stop: float) -> float:
     free = list(state.partition.independent_speeds)
     slope = right_side(state, run.signals, start, stop)
     solver = run.solver(slope, start, np.concatenate([state.q, state.u[free]]), stop, **run.options)
-    first_condition = _condition(state)
+    first_condition, side = _condition(state)
     while solver.status == "running":
         message = solver.step()
         if solver.status == "failed" or not np.all(np.isfinite(solver.y)):
@@ -211,7 +212,10 @@ def _stretch(run: _Run, start: float, stop: float) -> float:
             solver.y = moved
             if hasattr(solver, "f"):
                 solver.f = slope(solver.t, moved)
-        if _condition(run.state) > WORSE * first_condition:
+        condition, now = _condition(run.state)
+        if now != side:
+            raise ModelError(f"singular between t = {solver.t_old:.6g} and {solver.t:.6g} s: {GIVES_WAY}")
+        if condition > WORSE * first_condition:
             run.state = _repartition(run.state, solver.t)
             return float(solver.t)
     return float(solver.t)
@@ -233,12 +237,17 @@ def _project(state: State, y: Array) -> State:
     return State(state.model, state.parameters, parts, q, u)
 
 
-def _condition(state: State) -> float:
+def _condition(state: State) -> tuple[float, float]:
+    """Return the condition number and the sign of the determinant of the dependent columns of the constraints.
+
+    A change of sign means that the constraints lost their rank in between: a bad choice of speeds is given up before.
+    """
     parts = state.partition
     if not parts.rows:
-        return 1.0
+        return 1.0, 1.0
     jacobian, _ = state.model.kinetics(state.q, state.parameters)
-    return float(np.linalg.cond(jacobian[np.ix_(list(parts.rows), list(parts.dependent_speeds))]))
+    dependent = jacobian[np.ix_(list(parts.rows), list(parts.dependent_speeds))]
+    return float(np.linalg.cond(dependent)), float(np.linalg.slogdet(dependent)[0])
 
 
 def _repartition(state: State, t: float) -> State:
@@ -249,8 +258,8 @@ def _repartition(state: State, t: float) -> State:
     except ModelError as error:
         raise ModelError(f"singular at t = {t:.6g} s: {error}") from None
     moved = State(state.model, state.parameters, parts, state.q, state.u)
-    if len(parts.rows) != len(state.partition.rows) or _condition(moved) > SINGULAR:
-        raise ModelError(f"singular at t = {t:.6g} s: the constraints lose rank, the loops can move in several ways")
+    if len(parts.rows) != len(state.partition.rows) or _condition(moved)[0] > SINGULAR:
+        raise ModelError(f"singular at t = {t:.6g} s: {GIVES_WAY}")
     return moved
 
 
