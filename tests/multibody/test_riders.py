@@ -12,7 +12,17 @@ from hypothesis import strategies as st
 from singletrack import coefficients as closed_form
 from singletrack import load_bicycle, load_rider
 from singletrack.errors import InputError, PostureError
-from singletrack.multibody import accelerations, bicycle_model, coefficients, loop_forces, ride, simulate, wheel_forces
+from singletrack.multibody import (
+    accelerations,
+    bicycle_model,
+    coefficients,
+    free_turns,
+    loop_forces,
+    ride,
+    simulate,
+    steady_motion,
+    wheel_forces,
+)
 from singletrack.parameters import shipped
 from singletrack.posture import seat
 
@@ -135,6 +145,29 @@ def test_the_leaned_torso_twists_at_once_and_pitches_later() -> Any:
     small, double = (ride(model, 0.0, {"steer": angle}) for angle in (1e-3, 2e-3))
     assert double["torso twist"] / small["torso twist"] == pytest.approx(2.0, rel=1e-4)
     assert double["torso pitch"] / small["torso pitch"] == pytest.approx(4.0, rel=1e-4)
+
+
+@pytest.mark.parametrize(("name", "posture"), [("browser", "upright"), ("stratos", "leaned"), ("stratos", "rigid")])
+def test_riders_go_round_in_circles(name: Any, posture: Any) -> Any:
+    bicycle, rider = load_bicycle(name), load_rider("rider-a")
+    matrices = closed_form(bicycle, rider, posture)
+    model = bicycle_model(bicycle, rider, posture)
+    if posture == "upright":  # no capsize speed: it takes a torque to hold the turn
+        held = steady_motion(
+            model,
+            {"lean": 1e-3},
+            {"rear wheel": -5.0 / bicycle.rear_wheel_radius},
+            resting=["lean", "steer"],
+            adjust=["steer torque"],
+        )
+        small = np.array([held.state["lean"], held.state["steer"]])
+        stiffness = matrices.gravity * matrices.K0 + 25.0 * matrices.K2
+        assert stiffness @ small == pytest.approx([0.0, held.inputs["steer torque"]], abs=1e-5)
+        return
+    capsize = max(float(speed) for speed in matrices.critical_speeds().capsize)
+    turns = free_turns(model, [1e-3, 0.1, 0.2], speed=capsize)
+    assert turns.speed[0] == pytest.approx(capsize, abs=1e-4)
+    assert turns.steer[2] > turns.steer[1] > 0.0
 
 
 def test_the_wheels_carry_bicycle_and_rider() -> Any:

@@ -21,7 +21,6 @@ if TYPE_CHECKING:
 __all__ = ["free_turns"]
 
 RESTING = ("lean", "steer")
-FOLLOWED = ("lean", "steer", "pitch", "z")
 
 
 def free_turns(
@@ -79,7 +78,7 @@ def free_turns(
         for value in sorted(side.tolist(), key=abs):
             given = {along: value}
             state = steady_motion(model, given, resting=RESTING, guess=start, guess_rates={"rear wheel": rate}).state
-            start, rate = {name: state[name] for name in FOLLOWED}, state.rate("rear wheel")
+            start, rate = {name: state[name] for name in model.system.coordinates}, state.rate("rear wheel")
             found[value] = state
     states = [found[value] for value in values.tolist()]
     columns = {
