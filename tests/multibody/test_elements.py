@@ -13,6 +13,7 @@ from singletrack.multibody import (
     Body,
     CoordinateForce,
     Force,
+    Pulse,
     Sampled,
     Sensor,
     Spring,
@@ -64,6 +65,7 @@ SWING = revolute("swing", GROUND, "bob", ORIGIN, Y)
         (lambda: close_joint("end", "weld", "a", "b", point=ORIGIN), "loop end: unknown kind 'weld'"),
         (lambda: close_distance("rod", "a", "b", (ORIGIN, Y), 0.0), "loop rod: length is 0"),
         (lambda: Sampled([0.0, 0.0], [1.0, 2.0]), "sampled input: times must increase"),
+        (lambda: Pulse(8.0, 0.0, 1.0), "pulse: start 8.0, duration 0.0"),
         (lambda: Sampled([0.0, 1.0], [1.0]), "two equal lists"),
     ],
 )
@@ -142,6 +144,7 @@ def test_accelerations_that_are_not_determined_are_refused() -> None:
     ("act", "says"),
     [
         (lambda s: s["swin"], "unknown coordinate 'swin'"),
+        (lambda s: assemble(s.model, independent=["swin"]), "unknown independent coordinate 'swin'"),
         (lambda s: move(s, {"swin": 1.0}), "unknown coordinate 'swin'"),
         (lambda s: assemble(s.model, {"swin": 1.0}), "unknown coordinate 'swin'"),
         (lambda s: accelerations(s, {"push": 1.0}), "unknown input 'push'"),

@@ -1,5 +1,6 @@
 """A multibody engine: from bodies, joints, closed loops and rolling wheels to motion, and to its linearisation."""
 
+from singletrack.multibody.assembly import assemble, move
 from singletrack.multibody.bicycle import bicycle_model, ride
 from singletrack.multibody.coefficients import Coefficients, coefficients
 from singletrack.multibody.connections import (
@@ -33,7 +34,7 @@ from singletrack.multibody.elements import (
 from singletrack.multibody.equilibrium import SteadyMotion, steady_motion
 from singletrack.multibody.inputs import Constant, Function, Pulse, Sampled
 from singletrack.multibody.linearise import Linearisation, SpeedPolynomials, linearise, speed_polynomials
-from singletrack.multibody.model import Model, State, assemble, build, move
+from singletrack.multibody.model import Model, State, build
 from singletrack.multibody.simulate import Event, simulate
 from singletrack.multibody.system import System
 from singletrack.multibody.turning import free_turns

@@ -16,9 +16,10 @@ import numpy as np
 from singletrack.body import Body as Solid
 from singletrack.body import combine
 from singletrack.errors import InputError
+from singletrack.multibody.assembly import assemble, move
 from singletrack.multibody.connections import CoordinateForce, Wheel
 from singletrack.multibody.elements import GROUND, Body, free, revolute
-from singletrack.multibody.model import Model, assemble, build, move
+from singletrack.multibody.model import Model, build
 from singletrack.multibody.numbers import Numbers
 from singletrack.multibody.riders import frame_segments, rider_elements
 from singletrack.multibody.system import System

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from singletrack.arrays import Array
+from singletrack.multibody.assembly import assemble
 from singletrack.multibody.bicycle import bicycle_model
 from singletrack.multibody.linearise import speed_polynomials
-from singletrack.multibody.model import assemble
 
 if TYPE_CHECKING:
     from singletrack.parameters import Bicycle, Rider

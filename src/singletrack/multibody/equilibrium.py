@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from singletrack.errors import ModelError, unknown_name
+from singletrack.multibody.assembly import assemble, close, span_of
 from singletrack.multibody.dynamics import accelerations, input_vector
-from singletrack.multibody.model import State, assemble, close, span_of
+from singletrack.multibody.model import State
 from singletrack.multibody.variations import vary
 
 if TYPE_CHECKING:

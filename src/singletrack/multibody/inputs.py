@@ -65,6 +65,13 @@ class Pulse:
     height: float
     max_step: float = np.inf
 
+    def __post_init__(self) -> None:
+        if not np.all(np.isfinite([self.start, self.duration, self.height])) or self.duration <= 0.0:
+            raise ModelError(
+                f"pulse: start {self.start!r}, duration {self.duration!r}, height {self.height!r}; "
+                "allowed: finite numbers, a duration above zero"
+            )
+
     @property
     def breaks(self) -> tuple[float, ...]:
         """Its two edges."""

@@ -14,8 +14,9 @@ import numpy as np
 
 from singletrack.arrays import Array
 from singletrack.errors import ModelError, unknown_name
+from singletrack.multibody.assembly import move
 from singletrack.multibody.dynamics import accelerations, input_vector
-from singletrack.multibody.model import State, move
+from singletrack.multibody.model import State
 from singletrack.multibody.variations import vary
 
 if TYPE_CHECKING:
@@ -252,6 +253,14 @@ def speed_polynomials(upright: State, rolling: Mapping[str, float], names: Seque
         Rates of independent speeds at a forward speed of 1 m/s, such as ``{"rear wheel": -1 / radius}``.
     names
         The freedoms to keep, such as ``("lean", "steer")``.
+
+    Examples
+    --------
+    >>> from singletrack import load_bicycle
+    >>> from singletrack.multibody import assemble, bicycle_model
+    >>> at_rest = assemble(bicycle_model(load_bicycle("benchmark")))
+    >>> speed_polynomials(at_rest, {"rear wheel": -1 / 0.3}, ("lean", "steer")).K2.round(6).tolist()
+    [[0.0, 76.597346], [0.0, 2.654315]]
     """
     weightless = upright.parameters.copy()
     weightless[0] = 0.0

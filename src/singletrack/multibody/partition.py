@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from scipy.linalg import qr
 
-from singletrack.errors import ModelError
+from singletrack.errors import ModelError, unknown_name
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -84,6 +84,21 @@ def _normalised(matrix: np.ndarray[Any, Any]) -> np.ndarray[Any, Any]:
     return matrix / np.where(size > 0.0, size, 1.0)
 
 
+def _dependent(
+    scaled: np.ndarray[Any, Any], count: int, kept: Sequence[int], *, choose: bool
+) -> tuple[list[int], list[int]]:
+    """Return the dependent coordinates (by the first ``count`` rows) and the dependent speeds (by all rows)."""
+    candidates = [i for i in range(scaled.shape[1]) if i not in kept]
+    coordinates = _pivots(scaled[:count], candidates)
+    if not choose or len(coordinates) != count:
+        return coordinates, _pivots(scaled, candidates)
+    # dependent coordinates stay dependent as speeds; the rolling rows then choose among the others
+    first, rest = scaled[:count], scaled[count:]
+    reduced = rest - rest[:, coordinates] @ np.linalg.lstsq(first[:, coordinates], first, rcond=None)[0]
+    others = [i for i in candidates if i not in coordinates]
+    return coordinates, sorted(coordinates + _pivots(reduced, others))
+
+
 def partition(system: System, jacobian: np.ndarray[Any, Any], independent: Sequence[str] | None = None) -> Partition:
     """Choose independent coordinates and speeds for a constraint Jacobian (rows, n).
 
@@ -104,6 +119,9 @@ def partition(system: System, jacobian: np.ndarray[Any, Any], independent: Seque
     """
     names = system.coordinates
     wanted = system.independent if independent is None else tuple(independent)
+    for name in wanted or ():
+        if name not in names:
+            raise ModelError(unknown_name("independent coordinate", name, names))
     holonomic = len(system.holonomic_rows)
     rows = independent_rows(jacobian)
     redundant = tuple(system.rows[i] for i in range(len(jacobian)) if i not in rows)
@@ -115,21 +133,8 @@ def partition(system: System, jacobian: np.ndarray[Any, Any], independent: Seque
             f"not {len(wanted)}{note}"
         )
     kept = [] if wanted is None else [names.index(name) for name in wanted]
-    candidates = [i for i in range(len(names)) if i not in kept]
-    scaled = _normalised(jacobian[rows])
     count = sum(i < holonomic for i in rows)
-    coordinates = _pivots(scaled[:count], candidates)
-    if wanted is None:
-        # dependent coordinates stay dependent as speeds; the rolling rows then choose among the others
-        reduced = (
-            scaled[count:]
-            - scaled[count:][:, coordinates]
-            @ np.linalg.lstsq(scaled[:count][:, coordinates], scaled[:count], rcond=None)[0]
-        )
-        others = [i for i in candidates if i not in coordinates]
-        speeds = sorted(coordinates + _pivots(reduced, others))
-    else:
-        speeds = _pivots(scaled, candidates)
+    coordinates, speeds = _dependent(_normalised(jacobian[rows]), count, kept, choose=wanted is None)
     if len(coordinates) != count or len(speeds) != len(rows):
         raise ModelError(
             f"independent speeds {', '.join(wanted or ())}: they do not determine the other speeds here; "

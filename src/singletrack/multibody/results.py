@@ -70,46 +70,48 @@ def gather(
 
     if not samples or samples[0].time > times[0]:
         samples = [Sample(float(times[0]), start), *samples]
-    system, equations, p = start.model.system, start.model.equations, start.parameters
     t = np.array([sample.time for sample in samples])
-    q, u = (np.array([getattr(sample.state, name) for sample in samples]) for name in ("q", "u"))
     inputs = np.array([[signal(moment) for signal in driven] for moment in t]).reshape(len(t), len(driven))
+    variables = _variables(start, samples, inputs)
+    variables["event_time"] = ("event", np.array([moment for _, moment in passages], dtype=float))
+    system = start.model.system
+    coords = {
+        "time": t,
+        "coordinate": list(system.coordinates),
+        "input_name": [given.name for given in system.inputs],
+        "sensor_name": [sensor.name for sensor in system.sensors],
+        "wheel": [wheel.name for wheel in system.wheels],
+        "loop": [closure.name for closure in system.closures],
+        "axis": ["x", "y", "z"],
+        "component": ["longitudinal", "lateral", "normal"],
+        "event": np.array([name for name, _ in passages], dtype=str),
+    }
+    return xr.Dataset(variables, coords=coords)
+
+
+def _variables(start: State, samples: Sequence[Sample], inputs: Array) -> dict[str, Any]:
+    """Return dimensions and values of all that varies over time."""
+    system, equations, p, count = start.model.system, start.model.equations, start.parameters, len(samples)
+    q, u = (np.array([getattr(sample.state, name) for sample in samples]) for name in ("q", "u"))
     a, multipliers = _responses(samples, inputs)
     kinetic, potential = (value.full().ravel() for value in equations.energy(q.T, u.T, p))
     points = equations.contacts(q.T, p)[0]
     forces, torques = equations.loop_wrenches(q.T, multipliers.T, p)
+    sensed = equations.sensors(q.T, u.T, p).full().T.reshape(count, len(system.sensors))
     phi = equations.holonomic(q.T, p)[0].full().T
-    wheels, loops = len(system.wheels), len(system.closures)
-    axes = ("time", "loop", "axis")
-    return xr.Dataset(
-        {
-            "q": (("time", "coordinate"), q),
-            "u": (("time", "coordinate"), u),
-            "a": (("time", "coordinate"), a),
-            "input": (("time", "input_name"), inputs),
-            "sensor": (
-                ("time", "sensor_name"),
-                equations.sensors(q.T, u.T, p).full().T.reshape(len(t), len(system.sensors)),
-            ),
-            "contact": (("time", "wheel", "axis"), _blocks(points, len(t), wheels)),
-            "wheel_force": (("time", "wheel", "component"), split_wheel_forces(system, multipliers)),
-            "loop_force": (axes, _blocks(forces, len(t), loops)),
-            "loop_torque": (axes, _blocks(torques, len(t), loops)),
-            "kinetic_energy": ("time", kinetic),
-            "potential_energy": ("time", potential),
-            "energy": ("time", kinetic + potential),
-            "residual": ("time", np.max(abs(phi), axis=1, initial=0.0)),
-            "event_time": ("event", np.array([moment for _, moment in passages], dtype=float)),
-        },
-        coords={
-            "time": t,
-            "coordinate": list(system.coordinates),
-            "input_name": [given.name for given in system.inputs],
-            "sensor_name": [sensor.name for sensor in system.sensors],
-            "wheel": [wheel.name for wheel in system.wheels],
-            "loop": [closure.name for closure in system.closures],
-            "axis": ["x", "y", "z"],
-            "component": ["longitudinal", "lateral", "normal"],
-            "event": np.array([name for name, _ in passages], dtype=str),
-        },
-    )
+    loops, axes = len(system.closures), ("time", "loop", "axis")
+    return {
+        "q": (("time", "coordinate"), q),
+        "u": (("time", "coordinate"), u),
+        "a": (("time", "coordinate"), a),
+        "input": (("time", "input_name"), inputs),
+        "sensor": (("time", "sensor_name"), sensed),
+        "contact": (("time", "wheel", "axis"), _blocks(points, count, len(system.wheels))),
+        "wheel_force": (("time", "wheel", "component"), split_wheel_forces(system, multipliers)),
+        "loop_force": (axes, _blocks(forces, count, loops)),
+        "loop_torque": (axes, _blocks(torques, count, loops)),
+        "kinetic_energy": ("time", kinetic),
+        "potential_energy": ("time", potential),
+        "energy": ("time", kinetic + potential),
+        "residual": ("time", np.max(abs(phi), axis=1, initial=0.0)),
+    }

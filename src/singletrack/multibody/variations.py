@@ -20,7 +20,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from singletrack.arrays import Array
-from singletrack.multibody.model import span_of
+from singletrack.multibody.assembly import span_of
 
 if TYPE_CHECKING:
     from singletrack.multibody.dynamics import Response
