@@ -8,6 +8,7 @@ import casadi as ca
 import numpy as np
 import pytest
 
+from singletrack.errors import ModelError
 from singletrack.multibody import (
     GROUND,
     Body,
@@ -117,6 +118,37 @@ def test_a_tumbling_body_keeps_energy_and_angular_momentum() -> None:
     momentum = (R @ (inertia[:, None] * (np.swapaxes(R, 1, 2) @ spin)))[:, :, 0]
     np.testing.assert_allclose(momentum, momentum[:1].repeat(len(yaw), 0), atol=1e-8)
     assert np.ptp(lean) > 0.5  # it does tumble
+
+
+@pytest.mark.parametrize("joint", [free, spherical])
+def test_quaternions_move_as_angles_do(joint: Any) -> Any:
+    """Also through the attitude where the angles are singular: a lean of 90 degrees."""
+    bodies = [Body("top", 2.0, (0.1, 0.2, 0.5), (0.3, 0.4, 0.5)), Body("rod", 1.0, (0.3, 0.2, 1.0), (0.1, 0.1, 0.01))]
+    hinge = revolute("hinge", "top", "rod", (0.2, 0.2, 0.8), (1, 1, 0))
+
+    def machine(**kind: Any) -> Any:
+        return build(System(bodies, [joint("j", GROUND, "top", (0, 0, 0), **kind), hinge], gravity=0.1))
+
+    angles, quaternion = machine(), machine(quaternion=True)
+    rates = {"j.1": 0.3, "j.2": 2.5, "j.3": 0.4, "hinge": -1.0}
+    # at zero angles the spin is (lean', pitch', yaw'), and the quaternion changes by half of it
+    halves = {"j.q1": 1.25, "j.q2": 0.2, "j.q3": 0.15, "hinge": -1.0}
+    times = np.linspace(0.0, 3.0, 31)
+    start = move(assemble(quaternion), halves)
+    assert start.rate("j.q0") == pytest.approx(0.0, abs=1e-14)
+    run = simulate(start, times)
+    np.testing.assert_allclose(run.energy.to_numpy(), float(run.energy[0]), rtol=0, atol=1e-8)
+    assert run.residual.max() < 1e-13
+    short = simulate(move(assemble(angles), rates), times[:4])  # before the angles get singular
+    np.testing.assert_allclose(run.q.sel(coordinate="hinge")[:4], short.q.sel(coordinate="hinge"), atol=1e-9)
+    np.testing.assert_allclose(run.energy[:4], short.energy, rtol=1e-9)
+    attitude = 1.0 + run.q.sel(coordinate="j.q0").to_numpy()
+    assert np.min(attitude) < 0.0 < np.max(attitude)  # it turns over, past the zero of the scalar part
+
+
+def test_a_quaternion_takes_no_springs() -> Any:
+    with pytest.raises(ModelError, match="joint j: a quaternion takes no stiffness; use angles instead"):
+        spherical("j", GROUND, "top", (0, 0, 0), quaternion=True, stiffness=1.0)
 
 
 def test_inputs_act_as_forces_and_torques_do() -> None:

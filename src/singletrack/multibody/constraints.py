@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import casadi as ca
 
-from singletrack.multibody.kinematics import DOWN, SX, column, unit
+from singletrack.multibody.kinematics import DOWN, SX, column, slices, unit
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -92,15 +92,24 @@ def wheel_contact(wheel: Wheel, frames: Mapping[str, Frame]) -> Contact:
     return Contact(frame.position + arm, heading, parts)
 
 
-def holonomic_residual(system: System, frames: Mapping[str, Frame], contacts: Mapping[str, Contact]) -> SX:
-    """Return everything that must vanish in position: loops, then wheel heights."""
+def _quaternions(system: System, q: SX) -> list[SX]:
+    """Return the coordinates of every quaternion (each less one in its first component)."""
+    place = slices(system)
+    return [q[place[joint.name]][-4:] for joint in system.joints if joint.quaternion]
+
+
+def holonomic_residual(system: System, frames: Mapping[str, Frame], contacts: Mapping[str, Contact], q: SX) -> SX:
+    """Return everything that must vanish in position: loops, lengths of quaternions, wheel heights."""
     loops = [closure_residual(closure, frames) for closure in system.closures]
-    return ca.vertcat(ca.SX(0, 1), *loops, *(contacts[wheel.name].point[2] for wheel in system.wheels))
+    lengths = [2 * part[0] + ca.dot(part, part) for part in _quaternions(system, q)]
+    return ca.vertcat(ca.SX(0, 1), *loops, *lengths, *(contacts[wheel.name].point[2] for wheel in system.wheels))
 
 
-def constraint_rates(system: System, frames: Mapping[str, Frame], contacts: Mapping[str, Contact]) -> SX:
+def constraint_rates(system: System, frames: Mapping[str, Frame], contacts: Mapping[str, Contact], q: SX, u: SX) -> SX:
     """Return everything that must vanish in velocity: rates of the holonomic residual, then the slip of wheels."""
     touching = [contacts[wheel.name].velocity for wheel in system.wheels]
     loops = [closure_rate(closure, frames) for closure in system.closures]
+    pairs = zip(_quaternions(system, q), _quaternions(system, u), strict=True)
+    lengths = [2 * rate[0] + 2 * ca.dot(part, rate) for part, rate in pairs]
     sinking, slipping = [v[2] for v in touching], [v[:2] for v in touching]
-    return ca.vertcat(ca.SX(0, 1), *loops, *sinking, *slipping)
+    return ca.vertcat(ca.SX(0, 1), *loops, *lengths, *sinking, *slipping)

@@ -132,7 +132,8 @@ class Motion:
 class Joint:
     """A joint of the tree: the child moves relative to the parent by motions in succession, translations first.
 
-    Rotations turn about ``point`` (drawing, m); each later axis is carried along by the earlier ones.
+    Rotations turn about ``point`` (drawing, m); each later axis is carried along by the earlier ones. With
+    ``quaternion``, the last four coordinates are a unit quaternion less (1, 0, 0, 0), and one more constraint.
     """
 
     name: str
@@ -140,6 +141,7 @@ class Joint:
     child: str
     point: Vector
     motions: tuple[Motion, ...]
+    quaternion: bool = False
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "point", check_vector(f"joint {self.name}", "point", self.point))
@@ -239,17 +241,36 @@ def universal(name: str, parent: str, child: str, point: Vector, axes: tuple[Vec
 
 
 def spherical(
-    name: str, parent: str, child: str, point: Vector, axes: tuple[Vector, Vector, Vector] = (Z, X, Y), **law: Any
+    name: str,
+    parent: str,
+    child: str,
+    point: Vector,
+    axes: Sequence[Vector] = (Z, X, Y),
+    *,
+    quaternion: bool = False,
+    **law: Any,
 ) -> Joint:
     """Return a ball joint: turns about three axes in succession (rad), by default z, x, y.
 
-    The angles are singular where the second turn brings the third axis onto the first.
+    The angles are singular where the second turn brings the third axis onto the first. A ``quaternion`` never is; it
+    takes four coordinates, and no springs or dampers.
 
     >>> spherical("hip", "frame", "torso", (0, 0, -1)).coordinates
     ('hip.1', 'hip.2', 'hip.3')
     """
+    if quaternion:
+        return _quaternion_joint(name, parent, child, point, [], law)
     names = tuple(f"{name}.{i}" for i in (1, 2, 3))
     return _joint(name, parent, child, point, [(True, axis) for axis in axes], defaults=names, **law)
+
+
+def _quaternion_joint(
+    name: str, parent: str, child: str, point: Vector, slides: Sequence[Motion], law: dict[str, Any]
+) -> Joint:
+    if law:
+        raise ModelError(f"joint {name}: a quaternion takes no {', '.join(law)}; use angles instead")
+    turns = tuple(Motion(f"{name}.q{i}", rotates=True, axis=X) for i in range(4))
+    return Joint(name, parent, child, point, (*slides, *turns), quaternion=True)
 
 
 def planar(name: str, parent: str, child: str, point: Vector, *, normal: Vector, along: Vector, **law: Any) -> Joint:
@@ -265,15 +286,26 @@ def planar(name: str, parent: str, child: str, point: Vector, *, normal: Vector,
 
 
 def free(
-    name: str, parent: str, child: str, point: Vector = (0, 0, 0), axes: Sequence[Vector] = (Z, X, Y), **law: Any
+    name: str,
+    parent: str,
+    child: str,
+    point: Vector = (0, 0, 0),
+    axes: Sequence[Vector] = (Z, X, Y),
+    *,
+    quaternion: bool = False,
+    **law: Any,
 ) -> Joint:
     """Return six degrees of freedom: x, y, z of ``point`` (m), then turns about three axes in succession (rad).
 
-    With the default axes the turns are yaw, lean and pitch.
+    With the default axes the turns are yaw, lean and pitch; for ``quaternion`` see :func:`spherical`.
 
     >>> free("frame", GROUND, "rear frame").coordinates
     ('frame.x', 'frame.y', 'frame.z', 'frame.1', 'frame.2', 'frame.3')
     """
-    names = tuple(f"{name}.{part}" for part in ("x", "y", "z", "1", "2", "3"))
-    motions = [(False, axis) for axis in (X, Y, Z)] + [(True, axis) for axis in axes]
-    return _joint(name, parent, child, point, motions, defaults=names, **law)
+    slides = [(f"{name}.{part}", axis) for part, axis in zip("xyz", (X, Y, Z), strict=True)]
+    if quaternion:
+        motions = [Motion(slide, rotates=False, axis=axis) for slide, axis in slides]
+        return _quaternion_joint(name, parent, child, point, motions, law)
+    names = (*(slide for slide, _ in slides), *(f"{name}.{i}" for i in (1, 2, 3)))
+    turns = [(False, axis) for _, axis in slides] + [(True, axis) for axis in axes]
+    return _joint(name, parent, child, point, turns, defaults=names, **law)

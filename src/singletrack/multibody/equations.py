@@ -100,8 +100,8 @@ def _express(system: System) -> _Symbols:
     contacts = {wheel.name: wheel_contact(wheel, frames) for wheel in system.wheels}
     wrenches = applied_wrenches(system, frames, gravity, f)
     demand = inverse(system, frames, links, wrenches) - coordinate_forces(system, q, u, f)
-    phi = holonomic_residual(system, frames, contacts)
-    rate = constraint_rates(system, frames, contacts)
+    phi = holonomic_residual(system, frames, contacts, q)
+    rate = constraint_rates(system, frames, contacts, q, u)
     return _Symbols(q, u, a, f, m, gravity, frames, contacts, demand, phi, rate)
 
 

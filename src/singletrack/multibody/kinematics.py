@@ -98,13 +98,25 @@ def ground_frame() -> Frame:
     return Frame(zero, zero, ca.SX.eye(3), zero, zero, zero, zero)
 
 
+def quaternion_turn(q: SX) -> tuple[SX, SX]:
+    """Return the rotation (3, 3) of a quaternion less (1, 0, 0, 0), and the matrix (3, 4) from its rate to the spin.
+
+    Both hold for quaternions of any length, so that rounding in the length does no harm.
+    """
+    e, v = 1 + q[0], q[1:]
+    square = e * e + ca.dot(v, v)
+    turn = (2 * (v @ v.T) + (e * e - ca.dot(v, v)) * ca.SX.eye(3) + 2 * e * ca.skew(v)) / square
+    return turn, 2 * ca.horzcat(-v, e * ca.SX.eye(3) + ca.skew(v)) / square
+
+
 def _carry(parent: Frame, joint: Joint, q: SX, u: SX, a: SX) -> tuple[Frame, _Link]:
     point = column(joint.point)
     arm = parent.arm(point)
     rotation, spin, angular = parent.rotation, parent.spin, parent.angular_acceleration
     relative_velocity, relative_acceleration = ca.SX(3, 1), ca.SX(3, 1)
     axes = []
-    for i, motion in enumerate(joint.motions):
+    simple = joint.motions[:-4] if joint.quaternion else joint.motions
+    for i, motion in enumerate(simple):
         drawn = unit(motion.axis)
         axis = rotation @ drawn
         axes.append(axis)
@@ -116,6 +128,13 @@ def _carry(parent: Frame, joint: Joint, q: SX, u: SX, a: SX) -> tuple[Frame, _Li
             arm = arm + axis * q[i]
             relative_velocity += axis * u[i]
             relative_acceleration += axis * a[i]
+    if joint.quaternion:
+        turn, columns = quaternion_turn(q[-4:])
+        relative, change = columns @ u[-4:], columns @ a[-4:] + ca.jtimes(columns @ u[-4:], q[-4:], u[-4:])
+        angular = angular + rotation @ change + ca.cross(spin, rotation @ relative)
+        spin = spin + rotation @ relative
+        axes += [rotation @ columns[:, i] for i in range(4)]
+        rotation = rotation @ turn
     frame = Frame(
         point,
         parent.position + arm,

@@ -11,6 +11,7 @@ import numpy as np
 
 from singletrack.arrays import Array
 from singletrack.errors import ModelError, unknown_name
+from singletrack.multibody.assembly import span_of
 from singletrack.multibody.dynamics import reduced, right_side
 from singletrack.multibody.inputs import Signal, signals
 from singletrack.multibody.model import State
@@ -27,7 +28,7 @@ if TYPE_CHECKING:
 __all__ = ["Event", "simulate"]
 
 WORSE = 30.0
-SINGULAR = 1e10
+SINGULAR = 1e8
 GIVES_WAY = "the constraints lose rank, the loops can move in more than one way"
 
 
@@ -188,16 +189,19 @@ def _project(state: State, y: Array) -> State:
 
 
 def _condition(state: State) -> tuple[float, float]:
-    """Return the condition number and the sign of the determinant of the dependent columns of the constraints.
+    """Return how bad the choice of independent speeds is, and a sign that changes at singularities.
 
-    A change of sign means that the constraints lost their rank in between: a bad choice of speeds is given up before.
+    Bad is what makes others much faster than the independent speeds, or their equations ill-conditioned.
+    The sign is that of the determinant of the dependent columns of the constraints. Where it changes, the
+    constraints have lost their rank in between: a bad choice of speeds is given up before.
     """
     parts = state.partition
     if not parts.rows:
         return 1.0, 1.0
     jacobian, _ = state.model.kinetics(state.q, state.parameters)
     dependent = jacobian[np.ix_(list(parts.rows), list(parts.dependent_speeds))]
-    return float(np.linalg.cond(dependent)), float(np.linalg.slogdet(dependent)[0])
+    fastest = float(np.max(abs(span_of(parts, jacobian)), initial=1.0))
+    return max(fastest, float(np.linalg.cond(dependent))), float(np.linalg.slogdet(dependent)[0])
 
 
 def _repartition(state: State, t: float) -> State:

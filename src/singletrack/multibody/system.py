@@ -89,8 +89,9 @@ class System:
 
     @property
     def holonomic_rows(self) -> tuple[str, ...]:
-        """Names of the constraints on coordinates: loops, then the heights of the wheels."""
+        """Names of the constraints on coordinates: loops, lengths of quaternions, heights of the wheels."""
         loops = [row for closure in self.closures for row in closure.rows]
+        loops += [f"{joint.name} (quaternion)" for joint in self.joints if joint.quaternion]
         return tuple(loops + [f"{wheel.name} (height)" for wheel in self.wheels])
 
     @property
