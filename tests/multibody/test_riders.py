@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from singletrack import coefficients as closed_form
 from singletrack import load_bicycle, load_rider
-from singletrack.errors import InputError, PostureError
+from singletrack.errors import InputError, ModelError, PostureError
 from singletrack.multibody import (
     accelerations,
     bicycle_model,
@@ -138,6 +138,13 @@ def test_large_motions_keep_hands_energy_and_symmetry(name: Any, posture: Any) -
     left, right = (loop_forces(mirrored)[hand] for hand in ("left hand", "right hand"))
     assert left * [1, -1, 1] == pytest.approx(loop_forces(start)["right hand"], rel=1e-8, abs=1e-8)
     assert right * [1, -1, 1] == pytest.approx(loop_forces(start)["left hand"], rel=1e-8, abs=1e-8)
+
+
+def test_an_upright_rider_cannot_steer_further_than_the_arm_reaches() -> Any:
+    model = bicycle_model(load_bicycle("browser"), load_rider("rider-a"), "upright")
+    assert ride(model, 0.0, {"steer": 0.45})["right elbow"] > 0.0
+    with pytest.raises(ModelError, match=r"(left|right) hand \(point \d\): the loop cannot close"):
+        ride(model, 0.0, {"steer": 0.6})
 
 
 def test_the_leaned_torso_twists_at_once_and_pitches_later() -> Any:
