@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
+from scipy.optimize import brentq
 
 from singletrack import coefficients as closed_form
 from singletrack import load_bicycle, load_rider
@@ -141,10 +142,24 @@ def test_large_motions_keep_hands_energy_and_symmetry(name: Any, posture: Any) -
 
 
 def test_an_upright_rider_cannot_steer_further_than_the_arm_reaches() -> Any:
-    model = bicycle_model(load_bicycle("browser"), load_rider("rider-a"), "upright")
-    assert ride(model, 0.0, {"steer": 0.45})["right elbow"] > 0.0
-    with pytest.raises(ModelError, match=r"(left|right) hand \(point \d\): the loop cannot close"):
-        ride(model, 0.0, {"steer": 0.6})
+    bicycle, rider = load_bicycle("browser"), load_rider("rider-a")
+    points = seat(bicycle, rider, "upright").skeleton
+    tilt = bicycle.steer_axis_tilt
+    foot, axis = np.array([bicycle.wheel_base + bicycle.trail, 0, 0]), np.array([np.sin(tilt), 0, np.cos(tilt)])
+
+    def reach(steer: Any) -> Any:
+        """From the left shoulder to the left grip, which goes away when the steer turns to the right."""
+        arm = points[20] - foot
+        turned = np.cos(steer) * arm + np.sin(steer) * np.cross(axis, arm) + (1 - np.cos(steer)) * axis * (axis @ arm)
+        return np.linalg.norm(foot + turned - points[22])
+
+    stretched = rider.upper_arm_length + rider.lower_arm_length
+    limit = brentq(lambda steer: reach(steer) - stretched, 0.0, 1.0)
+    model = bicycle_model(bicycle, rider, "upright")
+    close_to = ride(model, 0.0, {"steer": 0.9 * limit})  # further, the elbow's plane would lie flat: another limit
+    assert abs(close_to["left shoulder rotation"]) > abs(close_to["right shoulder rotation"])
+    with pytest.raises(ModelError, match=r"left hand \(point \d\): the loop cannot close"):
+        ride(model, 0.0, {"steer": 1.01 * limit})
 
 
 def test_the_leaned_torso_twists_at_once_and_pitches_later() -> Any:

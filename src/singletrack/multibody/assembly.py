@@ -19,6 +19,7 @@ __all__ = ["assemble", "close", "move", "span_of", "tangent_space"]
 
 NEWTON_STEPS = 60
 CLOSED = 1e-12
+WALK = 21
 
 
 def _blame(model: Model, q: Array, gradient: Array, phi: Array) -> ModelError:
@@ -109,12 +110,28 @@ def assemble(
     given = model.vector(coordinates)
     q = model.vector(guess)
     fixed = [index_of(model.system, name) for name in coordinates or {}]
-    q[fixed] = given[fixed]
-    movable = [i for i in range(len(q)) if i not in fixed]
-    q = close(model, q, p, movable)
+    q = _reach(model, q, given, fixed, p)
     jacobian, _ = model.kinetics(q, p)
     _refuse_singular(model, q, p, jacobian)
     return State(model, p, partition(model.system, jacobian, independent), q, np.zeros(len(q)))
+
+
+def _reach(model: Model, q: Array, given: Array, fixed: list[int], p: Array) -> Array:
+    """Return a closed configuration with the given coordinates: at once, or step by step from the start."""
+    movable = [i for i in range(len(q)) if i not in fixed]
+    target = q.copy()
+    target[fixed] = given[fixed]
+    try:
+        return close(model, target, p, movable)
+    except ModelError as error:
+        start = q[fixed]
+        try:
+            for fraction in np.linspace(0.0, 1.0, WALK):
+                q[fixed] = start + fraction * (given[fixed] - start)
+                q = close(model, q, p, movable)
+        except ModelError:
+            raise error from None
+        return q
 
 
 def _refuse_singular(model: Model, q: Array, p: Array, jacobian: Array) -> None:
