@@ -46,6 +46,16 @@ def test_coefficients_json_has_every_digit(run):
         np.testing.assert_array_equal(found[name], getattr(model, name))
 
 
+@pytest.mark.parametrize("command", ["coefficients", "eigenvalues", "critical-speeds"])
+def test_engines_agree(run, command):
+    arguments = [command, "browser", "--rider", "rider-a", "--posture", "upright", "--json", "--engine"]
+    one, two = (json.loads(run(*arguments, engine)[1]) for engine in ("closed-form", "multibody"))
+    assert one.keys() == two.keys()
+    for key in one:
+        if key != "modes":
+            np.testing.assert_allclose(two[key], one[key], rtol=1e-9, atol=1e-12)
+
+
 def test_coefficients_table(run):
     code, out, _ = run("coefficients", "stratos", "--rider", "rider-a", "--posture", "leaned")
     assert code == 0

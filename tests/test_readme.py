@@ -31,10 +31,11 @@ def test_commands(command, monkeypatch, capsys, tmp_path):
 
 
 def test_python():
-    (block,) = re.findall(r"```python\n(.*?)```", README.read_text(), re.DOTALL)
+    block = "\n".join(re.findall(r"```python\n(.*?)```", README.read_text(), re.DOTALL))
     names: dict[str, object] = {}
     exec(compile(block, str(README), "exec"), names)  # noqa: S102  # our own README
     assert names["trails"].M.shape == (1000, 2, 2)
+    assert names["motion"].sizes["time"] == 501
 
 
 def test_links():
