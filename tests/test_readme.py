@@ -10,6 +10,8 @@ from pathlib import Path
 import pytest
 
 from singletrack import cli
+from singletrack.reproduce.cases import paper_cases
+from singletrack.reproduce.claims import check_claims
 
 README = Path(__file__).parents[1] / "README.md"
 COMMANDS = [
@@ -36,6 +38,11 @@ def test_python():
     exec(compile(block, str(README), "exec"), names)  # noqa: S102  # our own README
     assert names["trails"].M.shape == (1000, 2, 2)
     assert names["motion"].sizes["time"] == 501
+
+
+def test_verdicts():
+    claims = check_claims(paper_cases())
+    assert f"({sum(claim.holds for claim in claims)} of {len(claims)} hold" in README.read_text()
 
 
 def test_links():

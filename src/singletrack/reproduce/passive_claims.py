@@ -96,7 +96,12 @@ def _leaned_causes(cases: dict[str, Case]) -> list[Claim]:
             bool(weave and weave[0] > base.critical.weave[0]),
         )
     )
-    claims.append(Claim("3.1", "The added mass decreases the weave frequencies overall", slower[0], slower[1]))
+    mass_note = (
+        "" if slower[1] else "The frequency falls at low speed, where most of the change is, and rises at high speed."
+    )
+    claims.append(
+        Claim("3.1", "The added mass decreases the weave frequencies overall", slower[0], slower[1], mass_note)
+    )
     capsize = stiffer.critical_speeds().capsize
     faster = _frequency_comparison(base.modes.eigenvalues, stiffer.modes(SPEEDS).eigenvalues)
     note = (
