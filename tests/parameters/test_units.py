@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from singletrack import InputError
-from singletrack.parameters.units import Quantity, parse_quantity
+from singletrack.parameters.units import COMMON_FACTORS, Quantity, parse_quantity, pint_factor
 
 
 @pytest.mark.parametrize(
@@ -68,6 +68,11 @@ def test_uncertainty(text):
 def test_refusals(text, unit, reason):
     with pytest.raises(InputError, match=reason):
         parse_quantity(text, unit)
+
+
+@pytest.mark.parametrize(("text", "unit"), COMMON_FACTORS)
+def test_common_factors_are_those_of_pint(text, unit):
+    assert COMMON_FACTORS[text, unit] == pint_factor("", text, unit)
 
 
 def test_nan_is_left_to_the_record():
