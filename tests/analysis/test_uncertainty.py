@@ -13,7 +13,9 @@ DEVIATIONS = {
     **dict.fromkeys(("wheel_base", "trail"), 0.002),
     **dict.fromkeys(("rear_frame_x", "rear_frame_z", "front_frame_x", "front_frame_z"), 0.003),
     **dict.fromkeys(("rear_frame_mass", "front_frame_mass", "rear_wheel_mass", "front_wheel_mass"), 0.02),
-    **{"steer_axis_tilt": 0.0035, "front_wheel_inertia_yy": 0.001, "rear_wheel_inertia_yy": 0.001},
+    "steer_axis_tilt": 0.0035,
+    "front_wheel_inertia_yy": 0.001,
+    "rear_wheel_inertia_yy": 0.001,
 }
 
 

@@ -123,7 +123,8 @@ _LOCATES = {
     **{NAMES[f"I{b}{axes}"]: f"Tt{b}{i}" for b in "BH" for axes, i in (("xz", 2), ("zz", 3))},
     **{NAMES[f"{axis}{b}"]: f"a{b}1" for b in "BH" for axis in "xz"},
     **{NAMES[s]: s for s in ("hbb", "lcs", "lsp", "lst", "lamst", "lf", "wfh", "wrh")},
-    **{"stem_length": "LhbR", "handlebar_length": "LhbF"},
+    "stem_length": "LhbR",
+    "handlebar_length": "LhbF",
 }
 
 

@@ -90,7 +90,7 @@ def template(kind: str) -> str:
     Examples
     --------
     >>> print(template("bicycle").splitlines()[-1])
-    # stem_length = "? m" # ls: along the steer axis; greater than zero
+    stem_length = "? m" # optional, ls: along the steer axis; greater than zero
     """
     if kind not in KINDS:
         raise InputError(unknown_name("kind", kind, KINDS))
@@ -100,7 +100,7 @@ def template(kind: str) -> str:
     sketch = _BICYCLE_SKETCH if kind == "bicycle" else _RIDER_SKETCH
     lines = [
         f"# A {kind} for singletrack. Replace each ? by a number; the unit may be another one of the same kind (mm,",
-        '# in, lb). A standard deviation may follow: "0.0563 +/- 0.0017 m". Delete what is optional and unknown.',
+        '# in, lb). A standard deviation may follow: "0.0563 +/- 0.0017 m". Delete optional lines you cannot fill.',
         "#",
         *(f"# {line}".rstrip() for line in sketch.strip("\n").splitlines()),
         "",
@@ -121,13 +121,12 @@ def _parameter_lines(descriptions: dict[str, Parameter]) -> Iterator[str]:
             yield ""
         yield f"# {group}"
         for name, p in members:
-            if name == "forward_lean_angle":
-                several = '{ stratos = "63.9 deg", browser = "82.9 deg" }'
-                yield f'# {name} = "? deg" # {p.meaning}; or of several: {several}'
-                continue
             example = "9.81" if name == "gravity" else "?"
             text = f'"{example} {unit_text(p.unit)}"' if p.unit else f'"{example}"'
-            yield f"{'# ' if p.optional else ''}{name} = {text} # {p.symbol}: {p.meaning}; {ALLOWED[p.allowed][0]}"
+            note = "optional, " if p.optional else ""
+            if name == "forward_lean_angle":
+                yield f'# On several bicycles, by name: {name} = {{ stratos = "63.9 deg", browser = "82.9 deg" }}'
+            yield f"{name} = {text} # {note}{p.symbol}: {p.meaning}; {ALLOWED[p.allowed][0]}"
 
 
 def _raw_lines() -> Iterator[str]:

@@ -150,8 +150,8 @@ def _checked(entries: Entries) -> tuple[dict[str, float], float | None]:
         for inner, outer in itertools.pairwise(chain):
             if values[outer] <= values[inner]:
                 raise InputError(
-                    f"{entries.place(outer)}: {outer} = {values[outer]:g}, must be more than {inner} = {values[inner]:g}, "
-                    "which is nearer to the joint both are measured from"
+                    f"{entries.place(outer)}: {outer} = {values[outer]:g}, must be more than "
+                    f"{inner} = {values[inner]:g}, which is nearer to the joint both are measured from"
                 )
     mass = values.get("totalmass")
     if mass is not None and not 1 < mass < 1000:
