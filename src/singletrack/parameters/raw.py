@@ -45,7 +45,9 @@ def _assembly(letter: str, which: str) -> dict[str, RawParameter]:
     for i in range(1, 10):
         extra = {"needed": i <= 3}
         text = f"{which} hung in orientation {i}"
-        found[f"alpha{letter}{i}"] = RawParameter("deg", f"head tube's angle, {text}", -360, 720, **extra)
+        found[f"alpha{letter}{i}"] = RawParameter(
+            "deg", f"steer axis (upwards) from the horizontal, {text}", -360, 720, **extra
+        )
         found[f"a{letter}{i}"] = RawParameter("m", f"plumb line to wheel centre, {text}", -math.inf, **extra)
         found[f"Tt{letter}{i}"] = RawParameter("s", f"torsional period, {text}", **extra)
     return found

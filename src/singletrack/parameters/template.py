@@ -70,7 +70,9 @@ _RAW_SKETCH = r"""
                       / | \   l = axis to centre                              /   \   angles alpha.. of the head tube,
                         o     (wheels: lF, lR)                                        periods Tt..1, Tt..2, Tt..3
     4. Plumb line through the hanging point in each orientation: a = its distance from the wheel centre
-       (a > 0 where the centre lies to the left of the line, seen from the bicycle's right).
+       (a > 0 where the wheel centre lies to the left of the line, seen from the bicycle's right side).
+    alpha: from the horizontal, pointing right, counter-clockwise to the steer axis, pointing up, seen from the
+       bicycle's right side; on its wheels a bicycle has alpha = 90 deg + steer axis tilt.
 """
 
 

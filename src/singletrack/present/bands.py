@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from singletrack.present.style import COLOURS
+
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
@@ -52,7 +54,7 @@ def add_bands(
     >>> len(add_bands(ax, eigenvalue_uncertainty(bicycle, speeds=np.linspace(5, 10, 11))))
     4
     """
-    palette = {"weave": "C0", "capsize": "C1", "castering": "C2", **(colours or {})}
+    palette = {**COLOURS, **(colours or {})}
     drawn = []
     limits = ax.get_xlim(), ax.get_ylim(), ax.get_autoscale_on()
     for column, mode in enumerate(_MODES):
@@ -64,9 +66,10 @@ def add_bands(
             where = ~oscillates if twin else np.ones_like(oscillates)
             if where.any():
                 drawn.append(ax.fill_between(result.speeds, *result.real_interval[:, :, column], where=where, **style))
-        if "imaginary" in parts and not twin and oscillates.any():
+        upper = result.eigenvalues[:, column].imag > 0
+        if "imaginary" in parts and upper.any():
             low, high = result.imaginary_interval[:, :, column]
-            drawn.append(ax.fill_between(result.speeds, low, high, where=oscillates, hatch="//", **style))
+            drawn.append(ax.fill_between(result.speeds, low, high, where=upper, **style))
     if not limits[2]:
         ax.set_xlim(limits[0])
         ax.set_ylim(limits[1])

@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from singletrack.present.style import COLOURS, new_figure, style
+
 if TYPE_CHECKING:
     from singletrack.parameters.oscillation import Oscillation
 
@@ -21,13 +23,16 @@ def oscillation_figure(fit: Oscillation, title: str = "") -> Any:
     >>> len(oscillation_figure(fit_oscillation(t, np.exp(-0.1 * t) * np.cos(4 * t) + 1e-3 * np.sin(50 * t))).axes)
     2
     """
-    from matplotlib.figure import Figure  # noqa: PLC0415  # lazy: heavy
+    with style():
+        return _drawn(fit, title)
 
-    figure = Figure(figsize=(8.0, 5.0), layout="constrained")
+
+def _drawn(fit: Oscillation, title: str) -> Any:
+    figure = new_figure(8.0, 5.0)
     top, bottom = figure.subplots(2, 1, sharex=True, height_ratios=[3, 1])
     fine = np.linspace(fit.time[0], fit.time[-1], 20 * len(fit.time) if len(fit.time) < 500 else 2 * len(fit.time))
     top.plot(fit.time, fit.signal, ".", markersize=2, color="0.5", label="signal")
-    top.plot(fine, fit.at(fine), color="C0", linewidth=1, label="fit")
+    top.plot(fine, fit.at(fine), color=COLOURS["weave"], linewidth=1, label="fit")
     top.set_ylabel("signal")
     top.legend(loc="upper right")
     top.set_title(f"{title + ': ' if title else ''}period {fit.period:.6g} s ± {fit.period_deviation:.1g} s")
