@@ -83,6 +83,27 @@ def test_convert_there_and_back(suffix, tmp_path):
     assert load_bicycle(back).values() == load_bicycle("benchmark").values()
 
 
+def test_convert_puts_a_rigid_rider_on_a_bicycle(tmp_path):
+    rider = tmp_path / "rider.txt"
+    rider.write_text("mB = 72\nxB = 0.3\nzB = -1.1\nIBxx = 8\nIBxz = -1.9\nIByy = 8.1\nIBzz = 2.4\n")
+    commands.convert("browser", tmp_path / "both.toml", rigid_rider=rider)
+    bare = load_bicycle("browser").rear_frame_mass
+    assert load_bicycle(tmp_path / "both.toml").rear_frame_mass == pytest.approx(bare + 72)
+    with pytest.raises(InputError, match="is a rider, must be a bicycle"):
+        commands.convert("rider-a", tmp_path / "no.toml", rigid_rider=rider)
+
+
+def test_convert_takes_yeadons_measurements_with_a_configuration(tmp_path):
+    pytest.importorskip("yeadon", reason="the optional package yeadon is not installed")
+    measured, configuration = tmp_path / "MeYeadonMeas.txt", tmp_path / "cfg.txt"
+    measured.write_text(MUTATIONS["yeadon_measurements"]())
+    configuration.write_text("somersault: 0.2\n")
+    commands.convert(str(measured), tmp_path / "me.toml", configuration=configuration)
+    rider = load_rider(tmp_path / "me.toml")
+    assert rider.forward_lean_angle == pytest.approx(np.pi / 2 - 0.2)
+    assert set(rider.shapes) == {"head", "torso", "upper_arm", "lower_arm", "upper_leg", "lower_leg"}
+
+
 def test_convert_says_what_a_parameter_set_does_not_hold(tmp_path, capsys, raw):
     commands.convert(str(raw), tmp_path / "set.yml")
     printed = capsys.readouterr().out
@@ -138,19 +159,11 @@ def test_measure_prints_all_parameters_and_writes(raw, tmp_path, capsys):
 
 
 @pytest.mark.parametrize("name", ["Stratos", "Browser"])
-def test_measure_compares_with_the_shipped_bicycle_of_that_name(name, shared, capsys):
-    commands.measure(shared / "bicycles" / f"{name}Measured.txt")
+def test_measure_compares_with_the_shipped_bicycle_of_that_name(name, shared_data, capsys):
+    commands.measure(shared_data / "bicycles" / f"{name}Measured.txt")
     printed = " ".join(capsys.readouterr().out.split())
     assert "yes: rounded" in printed
     assert "exchanged" in printed
-
-
-@pytest.fixture
-def shared():
-    folder = Path(__file__).resolve().parents[1].parent / "shared" / "data" / "bicycleparameters"
-    if not folder.is_dir():
-        pytest.skip("measured files of others are not here: ../shared/data/bicycleparameters does not exist")
-    return folder
 
 
 def test_period_prints_and_plots(tmp_path, capsys):

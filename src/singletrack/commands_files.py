@@ -184,6 +184,7 @@ def convert(
     output: str | Path,
     parameterization: str = "benchmark",
     configuration: str | Path | None = None,
+    rigid_rider: str | Path | None = None,
 ) -> None:
     """Read a bicycle or a rider in any format and write it in the format of the output's suffix.
 
@@ -197,6 +198,8 @@ def convert(
         Of a parameter set.
     configuration : path, optional
         Configuration of Yeadon's human, for the forward lean angle of a rider read from 95 measurements.
+    rigid_rider : path, optional
+        Parameter text of a rigid rider (``mB, xB, zB, IBxx, ...``) to lump into the bicycle's rear frame.
 
     Raises
     ------
@@ -216,6 +219,8 @@ def convert(
     if target.exists() and Path(source).exists() and target.samefile(source):
         raise InputError(f"{output}: is the file to read, must be another one")
     record = _load(source, configuration)
+    if rigid_rider is not None:
+        record = _with_rigid_rider(record, rigid_rider)
     if kind == "toml":
         text = write_toml(record)
     elif not isinstance(record, Bicycle):
@@ -229,6 +234,17 @@ def convert(
     _show_oddities(console, record, None)
     if kind == "yaml" and isinstance(record, Bicycle):
         _note_losses(console, record)
+
+
+def _with_rigid_rider(record: Bicycle | Rider, path: str | Path) -> Bicycle:
+    from singletrack.parameters import Bicycle
+    from singletrack.parameters.files import read_text
+    from singletrack.parameters.formats.text import read_rigid_rider
+    from singletrack.parameters.lump import with_rigid_rider
+
+    if not isinstance(record, Bicycle):
+        raise InputError(f"{record.name}: is a rider, must be a bicycle to put the rigid rider {path} on")
+    return with_rigid_rider(record, read_rigid_rider(read_text(Path(path)), str(path)))
 
 
 def _note_losses(console: Console, record: Bicycle) -> None:

@@ -10,9 +10,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from singletrack import InputError, coefficients, load_bicycle
+from singletrack.body import Body, combine
 from singletrack.parameters.formats.parameter_sets import read_parameter_set, write_parameter_set
 from singletrack.parameters.formats.principal import principal_values
-from singletrack.parameters.formats.text import read_bicycle_text, read_entries, write_bicycle_text
+from singletrack.parameters.formats.text import read_bicycle_text, read_entries, read_rigid_rider, write_bicycle_text
 from singletrack.parameters.lump import PlanarBody, with_rigid_rider
 from singletrack.parameters.numbers import format_number, parse_number
 from singletrack.parameters.symbols import NAMES, SYMBOLS
@@ -101,7 +102,7 @@ def test_principal_radii_invert_the_tensor():
 deviations = st.none() | st.floats(0, 1e3)
 
 
-@settings(max_examples=60)
+@settings(max_examples=60, deadline=None)
 @given(st.floats(0.01, 0.2), deviations, deviations, st.floats(0.01, 1.5))
 def test_any_double_survives_a_text_file(trail, first, second, tilt):
     given_deviations = {"trail": first, "steer_axis_tilt": second}
@@ -112,6 +113,7 @@ def test_any_double_survives_a_text_file(trail, first, second, tilt):
     assert dict(back.standard_deviations) == known
 
 
+@settings(deadline=None)
 @given(st.floats(allow_nan=False, allow_infinity=False), deviations)
 def test_a_number_reads_back_as_the_same_double(value, deviation):
     found = parse_number(format_number(value, deviation))
@@ -194,6 +196,17 @@ def test_the_empty_template_of_others_is_refused_with_its_first_line(shared_data
         load_bicycle(shared_data / "bicycles" / "MeasuredTemplate.txt")
 
 
+def test_every_bicycle_of_others_is_read_and_left_as_it_is(shared_data):
+    bicycles = [*shared_data.glob("bicycles/*.txt"), *shared_data.glob("parameter_sets/*.yml")]
+    read = {path.name: load_bicycle(path) for path in bicycles if path.name != "MeasuredTemplate.txt"}
+    assert len(read) == 7
+    for bicycle in read.values():
+        assert np.linalg.eigvalsh(np.asarray(coefficients(bicycle).M)).min() > 0
+    # The same Browser in two formats.
+    two = [read[name] for name in ("BrowserBenchmark.txt", "benchmark-browser.yml")]
+    assert two[0].values() == two[1].values()
+
+
 def test_entries_know_their_lines():
     entries = read_entries("\n# one\na = 1\n\nb = 2+/-0.5\n", "x.txt")
     assert dict(entries.lines) == {"a": 3, "b": 5}
@@ -203,3 +216,48 @@ def test_entries_know_their_lines():
 def test_angles_in_text_files_are_radians():
     text = write_bicycle_text(load_bicycle("benchmark"))
     assert float(re.search(r"^lam = (.*)$", text, re.MULTILINE)[1]) == pi / 10
+
+
+RIGID = "mB = 72.0+/-2.0\nxB = 0.3\nyB = 0.0\nzB = -1.1\nIBxx = 8.0\nIBxz = -1.9\nIByy = 8.1\nIBzz = 2.4\n"
+
+
+def test_a_rigid_rider_is_lumped_as_rigid_bodies_are():
+    bicycle = load_bicycle("browser")
+    rider = read_rigid_rider(RIGID, "rider.txt")
+    both = with_rigid_rider(bicycle, rider)
+
+    def body(mass, x, z, xx, yy, zz, xz):
+        return Body(mass, np.array([x, 0.0, z]), np.array([[xx, 0, xz], [0, yy, 0], [xz, 0, zz]]))
+
+    def frame(b):
+        parts = ("mass", "x", "z", "inertia_xx", "inertia_yy", "inertia_zz", "inertia_xz")
+        return body(*(getattr(b, f"rear_frame_{part}") for part in parts))
+
+    expected = combine([frame(bicycle), body(72.0, 0.3, -1.1, 8.0, 8.1, 2.4, -1.9)])
+    np.testing.assert_allclose(frame(both).centre, expected.centre)
+    np.testing.assert_allclose(frame(both).inertia, expected.inertia, atol=1e-12)
+
+
+def test_the_peers_rigid_rider_is_read(shared_data):
+    rider = read_rigid_rider((shared_data / "riders" / "JasonBrowserBenchmark.txt").read_text(), "rider.txt")
+    assert (rider.mass, rider.x, rider.z, rider.xz) == (72.0, 0.2909, -1.1091, -1.9272)
+    with pytest.raises(InputError, match="is a rigid rider or a lone body, must be a bicycle"):
+        load_bicycle(shared_data / "riders" / "JasonBrowserBenchmark.txt")
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "says"),
+    [
+        ("mB = 72.0", "mB = -72.0", "line 1: mB = -72, must be greater than zero"),
+        ("zB = -1.1", "zB = 1.1", "line 4: zB = 1.1 m, must be less than zero"),
+        ("yB = 0.0", "yB = 0.1", "line 3: yB = 0.1, must be 0"),
+        ("IBxz = -1.9", "IBxz = -9.9", "line 6: IBxz = -9.9 kg*m^2 is no body's"),
+        ("xB = 0.3\n", "", "the rigid rider lacks xB"),
+        ("xB = 0.3", "w = 0.3", "unknown symbol of a rigid rider 'w'"),
+    ],
+)
+def test_refusals_of_rigid_riders(old, new, says):
+    assert old in RIGID
+    with pytest.raises(InputError, match=r"^rider\.txt") as refusal:
+        read_rigid_rider(RIGID.replace(old, new, 1), "rider.txt")
+    assert says in str(refusal.value)

@@ -30,7 +30,7 @@ def test_shipped_records_come_back_from_their_own_text(kind, name):
     assert getattr(back, "forward_lean_angles", {}) == getattr(record, "forward_lean_angles", {})
 
 
-@settings(max_examples=200)
+@settings(max_examples=200, deadline=None)
 @given(st.floats(1e-6, 1.5), st.none() | st.floats(0, 1), st.sampled_from(["rad", "m", "kg*m**2", "m/s**2", "kg", ""]))
 def test_any_quantity_reads_back_as_the_same_double(value, deviation, unit):
     text = quantity_text(value, deviation, unit)
@@ -38,6 +38,7 @@ def test_any_quantity_reads_back_as_the_same_double(value, deviation, unit):
     assert (found.value, found.deviation) == (value, deviation)
 
 
+@settings(deadline=None)
 @given(st.text(max_size=60), st.text(max_size=60))
 def test_any_name_and_description_come_back(name, description):
     printable = [text.encode("utf-8", "ignore").decode() for text in (name, description)]

@@ -36,6 +36,7 @@ __all__ = [
 #: and the neglected terms of the distance's spread are of relative size (σ/d)²/4, some 3 %.
 CLEARANCE = 6.0
 _CHUNK = 250
+_MOST_SAMPLES = 100_000
 # Curvature's share of the linear deviation up to which it is left out: it adds 3 % to the deviation then.
 _BEND = 0.25
 
@@ -332,7 +333,7 @@ def sample_designs(
     bicycle, rider, posture, shoulder, covariance
         As for :func:`linear_uncertainty`.
     samples : int
-        How many, from 10 to a million.
+        How many, from 10 to 100000.
     seed : int
         The same seed draws the same designs.
 
@@ -349,8 +350,8 @@ def sample_designs(
     >>> sample_designs(bicycle, samples=100).model.shape
     (100,)
     """
-    if not 10 <= samples <= 1_000_000:
-        raise InputError(f"samples = {samples}, must be from 10 to 1000000")
+    if not 10 <= samples <= _MOST_SAMPLES:
+        raise InputError(f"samples = {samples}, must be from 10 to {_MOST_SAMPLES}")
     rider = _seated(bicycle, rider)
     names, matrix = _covariance(bicycle, rider, covariance)
     drawn = np.random.default_rng(seed).standard_normal((samples, len(names))) @ _root(matrix).T

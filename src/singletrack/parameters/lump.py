@@ -63,4 +63,7 @@ def with_rigid_rider(bicycle: Bicycle, rider: PlanarBody) -> Bicycle:
     parts = {"mass": "mass", "x": "x", "z": "z"} | {f"inertia_{axes}": axes for axes in ("xx", "yy", "zz", "xz")}
     frame = PlanarBody(**{own: getattr(bicycle, f"rear_frame_{part}") for part, own in parts.items()})
     both = combine_planar([frame, rider])
-    return bicycle.replace(**{f"rear_frame_{part}": getattr(both, own) for part, own in parts.items()})
+    changes = {f"rear_frame_{part}": getattr(both, own) for part, own in parts.items()}
+    # The frame's standard deviations are not those of frame and rider.
+    kept = {name: sd for name, sd in bicycle.standard_deviations.items() if name not in changes}
+    return bicycle.replace(**changes, standard_deviations=kept)

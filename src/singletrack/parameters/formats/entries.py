@@ -10,13 +10,14 @@ from typing import TYPE_CHECKING, TypeVar
 
 from singletrack.errors import InputError, SingletrackError, unknown_name
 from singletrack.parameters.bicycle import Bicycle
+from singletrack.parameters.lump import PlanarBody
 from singletrack.parameters.symbols import MODEL_SYMBOLS, NAMES, SYMBOLS
 from singletrack.parameters.units import Quantity
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-__all__ = ["Entries", "bicycle_from_entries"]
+__all__ = ["Entries", "bicycle_from_entries", "rigid_rider_from_entries"]
 
 T = TypeVar("T")
 
@@ -110,6 +111,8 @@ _DEPENDENT: dict[str, Callable[[Mapping[str, float]], float]] = {
     "IRzz": lambda b: b["IRxx"],
     "IFzz": lambda b: b["IFxx"],
 }
+_LARGEST = 1e6
+_RIGID_RIDER = {"mB", "xB", "yB", "zB", "IBxx", "IByy", "IBzz", "IBxz"}
 #: Values that are no bicycle's, but stand in parameter sets.
 _CONDITIONS = ("v",)
 
@@ -123,6 +126,11 @@ def bicycle_from_entries(entries: Entries, source: str) -> Bicycle:
         For symbols that are unknown or missing, and values that are not allowed; names file, line and symbol.
     """
     entries.require_known([*SYMBOLS.values(), *_CONDITIONS, *_DEPENDENT], "symbol")
+    if set(entries.quantities) <= _RIGID_RIDER:
+        raise InputError(
+            f"{entries.where}: holds only {', '.join(entries.quantities)}: is a rigid rider or a lone body, must "
+            "be a bicycle; `singletrack convert BICYCLE OUTPUT --rigid-rider FILE` puts a rigid rider on one"
+        )
     entries.require(MODEL_SYMBOLS, "the parameter set")
     values, deviations = entries.values(), entries.deviations()
     entries.require_equal({name: follow(values) for name, follow in _DEPENDENT.items() if name in values})
@@ -137,3 +145,30 @@ def bicycle_from_entries(entries: Entries, source: str) -> Bicycle:
         ),
         SYMBOLS,
     )
+
+
+def rigid_rider_from_entries(entries: Entries) -> PlanarBody:
+    """Return the rigid rider that a file of the symbols ``mB, xB, zB, IBxx, IByy, IBzz, IBxz`` describes.
+
+    Raises
+    ------
+    InputError
+        For symbols that are unknown or missing, and values that no body has; names file, line and symbol.
+    """
+    entries.require_known(sorted(_RIGID_RIDER), "symbol of a rigid rider")
+    entries.require(sorted(_RIGID_RIDER - {"yB"}), "the rigid rider")
+    values = entries.values()
+    entries.require_equal({"yB": 0.0})
+    for name in ("mB", "IBxx", "IByy", "IBzz"):
+        if not 0 < values[name] < _LARGEST:
+            raise InputError(f"{entries.place(name)}: {name} = {values[name]:g}, must be greater than zero")
+    for name in ("xB", "zB", "IBxz"):
+        if not abs(values[name]) < _LARGEST:
+            raise InputError(f"{entries.place(name)}: {name} = {values[name]:g}, must be less than {_LARGEST:g}")
+    if values["zB"] >= 0:
+        raise InputError(f"{entries.place('zB')}: zB = {values['zB']:g} m, must be less than zero (z points down)")
+    if values["IBxz"] ** 2 >= values["IBxx"] * values["IBzz"]:
+        text = "no body's: its square must be less than IBxx IBzz"
+        raise InputError(f"{entries.place('IBxz')}: IBxz = {values['IBxz']:g} kg*m^2 is {text}")
+    moments = (values[f"IB{axes}"] for axes in ("xx", "yy", "zz", "xz"))
+    return PlanarBody(values["mB"], values["xB"], values["zB"], *moments)

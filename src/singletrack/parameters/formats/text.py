@@ -7,15 +7,16 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from singletrack.errors import InputError
-from singletrack.parameters.formats.entries import Entries, bicycle_from_entries
+from singletrack.parameters.formats.entries import Entries, bicycle_from_entries, rigid_rider_from_entries
 from singletrack.parameters.numbers import format_number, parse_number
 from singletrack.parameters.symbols import SYMBOLS
 
 if TYPE_CHECKING:
     from singletrack.parameters.bicycle import Bicycle
+    from singletrack.parameters.lump import PlanarBody
     from singletrack.parameters.units import Quantity
 
-__all__ = ["read_bicycle_text", "read_entries", "write_bicycle_text"]
+__all__ = ["read_bicycle_text", "read_entries", "read_rigid_rider", "write_bicycle_text"]
 
 _SUFFIXES = ("Benchmark", "Measured", "Parameters")
 
@@ -68,6 +69,17 @@ def read_bicycle_text(text: str, where: str) -> Bicycle:
         Names file, line, symbol, what was found and what is allowed.
     """
     return bicycle_from_entries(read_entries(text, where), source=f"parameter text file {Path(where).name}")
+
+
+def read_rigid_rider(text: str, where: str) -> PlanarBody:
+    """Return the rigid rider of a parameter text file (``mB, xB, zB, IBxx, IByy, IBzz, IBxz`` alone).
+
+    Raises
+    ------
+    InputError
+        Names file, line, symbol, what was found and what is allowed.
+    """
+    return rigid_rider_from_entries(read_entries(text, where))
 
 
 def write_bicycle_text(bicycle: Bicycle) -> str:
