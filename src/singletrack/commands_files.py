@@ -3,18 +3,15 @@
 from __future__ import annotations
 
 import json
-import math
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from singletrack.errors import InputError, PostureError, SingletrackError
+from singletrack.errors import InputError
 
 if TYPE_CHECKING:
     from rich.console import Console
 
     from singletrack.parameters import Bicycle, Rider
-    from singletrack.parameters.measure import Measurement
-    from singletrack.parameters.record import Record
 
 __all__ = ["convert", "measure", "period", "schema", "show", "template"]
 
@@ -102,14 +99,15 @@ def show(
         If there is no such thing or it cannot be used.
     """
     from singletrack.parameters import Rider, load_rider
+    from singletrack.present.printing import print_oddities, print_record, print_results
 
     record = _load(name_or_path)
     console = _console()
     if isinstance(record, Rider):
         if rider is not None:
             raise InputError(f"{name_or_path}: is a rider, must be a bicycle to seat {rider} on")
-        _show_record(console, record)
-        _show_oddities(console, record, None)
+        print_record(console, record)
+        print_oddities(console, record, None)
         return
     person = None if rider is None else load_rider(rider).on(record)
     if drawing:
@@ -117,66 +115,11 @@ def show(
 
         console.print(side_view(record, person), markup=False)
         console.print("centres of mass: R rear wheel, B rear frame, H front frame, F front wheel\n", style="dim")
-    _show_record(console, record)
+    print_record(console, record)
     if person is not None:
-        _show_record(console, person)
-    _show_results(console, record, person, posture, shoulder)
-    _show_oddities(console, record, person)
-
-
-def _show_record(console: Console, record: Bicycle | Rider) -> None:
-    from rich.table import Table
-    from rich.text import Text
-
-    from singletrack.present.records import derived, parameter_rows
-
-    console.print(Text(f"{record.kind} {record.name}".rstrip(), style="bold"))
-    for line in (record.description, f"source: {record.source}" if record.source else ""):
-        if line:
-            console.print(line, markup=False)
-    table = Table(show_header=False, box=None, pad_edge=False)
-    group = None
-    for row in (*parameter_rows(record), *derived(record)):
-        if row.group != group:
-            group = row.group
-            table.add_row(Text(f"\n{group}", style="bold"))
-        table.add_row(f"  {row.name}", row.value, row.deviation, Text(row.meaning, style="dim"))
-    console.print(table)
-    console.print()
-
-
-def _show_results(console: Console, bicycle: Bicycle, rider: Rider | None, posture: str, shoulder: str | None) -> None:
-    from rich.text import Text
-
-    from singletrack.present.records import uncertain_results
-
-    found = uncertain_results(bicycle, rider, posture if rider is not None else "rigid", shoulder)
-    who = f" with {rider.name or 'rider'}, {posture}" if rider is not None else ""
-    console.print(Text(f"linear equations{who}", style="bold"))
-    for name, matrix in found["matrices"].items():
-        for i, row in enumerate(matrix):
-            console.print(f"  {name if i == 0 else '':5}[{row[0]:12.6f} {row[1]:12.6f} ]", markup=False)
-    for kind in ("weave", "capsize"):
-        speeds = [f"{v:.4f}" + ("" if s is None else f" ± {s:.2g}") + " m/s" for v, s in found[kind]]
-        console.print(f"  {kind} speed: {', '.join(speeds) or 'never'}", markup=False)
-    ranges = [f"{low:.4f} to {high:.4f} m/s" for low, high in found["stable_ranges"]]
-    console.print(f"  stable: {', '.join(ranges) or 'never'}", markup=False)
-
-
-def _show_oddities(console: Console, record: Record, rider: Rider | None) -> None:
-    from singletrack.parameters import Bicycle
-    from singletrack.parameters.plausibility import oddities
-
-    found = list(oddities(record, rider))
-    if rider is not None and isinstance(record, Bicycle):
-        from singletrack.body.reach import seat_oddities
-
-        try:
-            found += seat_oddities(record, rider)
-        except PostureError as error:
-            console.print(f"warning: {error}", style="yellow", markup=False)
-    for oddity in found:
-        console.print(f"warning: {oddity}", style="yellow", markup=False, soft_wrap=True)
+        print_record(console, person)
+    print_results(console, record, person, posture, shoulder)
+    print_oddities(console, record, person)
 
 
 def convert(
@@ -211,6 +154,7 @@ def convert(
     from singletrack.parameters.formats.parameter_sets import write_parameter_set
     from singletrack.parameters.formats.text import write_bicycle_text
     from singletrack.parameters.formats.toml import write_toml
+    from singletrack.present.printing import print_oddities
 
     target = Path(output)
     kind = _SUFFIXES.get(target.suffix.lower())
@@ -231,7 +175,7 @@ def convert(
         text = write_parameter_set(record, parameterization)
     _deliver(text, output)
     console = _console()
-    _show_oddities(console, record, None)
+    print_oddities(console, record, None)
     if kind == "yaml" and isinstance(record, Bicycle):
         _note_losses(console, record)
 
@@ -290,6 +234,7 @@ def measure(
     from singletrack.parameters import load_bicycle, shipped
     from singletrack.parameters.files import read_text
     from singletrack.parameters.measure import measure as make
+    from singletrack.present.printing import print_measured, print_measured_speeds, print_oddities
 
     if not Path(path).exists():
         raise InputError(f"{path}: there is no such file")
@@ -297,9 +242,9 @@ def measure(
     name = found.bicycle.name if compare is None and found.bicycle.name in shipped("bicycle") else compare
     other = None if name in {None, "none"} else load_bicycle(str(name))
     console = _console()
-    _show_measured(console, found, other)
-    _show_speeds(console, found)
-    _show_oddities(console, found.bicycle, None)
+    print_measured(console, found, other)
+    print_measured_speeds(console, found)
+    print_oddities(console, found.bicycle, None)
     if output is not None:
         _write_bicycle(found.bicycle, output)
 
@@ -314,46 +259,6 @@ def _write_bicycle(bicycle: Bicycle, output: str | Path) -> None:
     if kind is None:
         raise InputError(f"{output}: unknown suffix {Path(output).suffix!r}, must be one of {', '.join(_SUFFIXES)}")
     _deliver(writers[kind](bicycle), output)
-
-
-def _show_measured(console: Console, found: Measurement, other: Bicycle | None) -> None:
-    from rich.table import Table
-
-    from singletrack.parameters.comparison import compare_measured
-    from singletrack.present.records import parameter_rows
-
-    table = Table(box=None, pad_edge=False)
-    for heading in ("parameter", "measured", "standard deviation"):
-        table.add_column(heading)
-    agreements = {} if other is None else {a.name: a for a in compare_measured(found.bicycle, other)}
-    if other is not None:
-        for heading in (other.name or "other", "difference / deviation", "agrees"):
-            table.add_column(heading)
-    for row in parameter_rows(found.bicycle):
-        cells = [row.name, row.value, row.deviation]
-        agreement = agreements.get(row.name)
-        if agreement is not None:
-            unit = row.value.split(" ", 1)[-1]
-            factor = 180 / math.pi if unit == "deg" else 1.0
-            verdict = "yes" if agreement.agrees else "no"
-            cells += [f"{factor * agreement.other:.6g} {unit}", f"{agreement.ratio:+.2f}", agreement.reason or verdict]
-        table.add_row(*cells)
-    console.print(table)
-
-
-def _show_speeds(console: Console, found: Measurement) -> None:
-    from singletrack.analysis.uncertainty import linear_uncertainty
-
-    try:
-        speeds = linear_uncertainty(found.bicycle, covariance=(found.names, found.covariance)).critical_speeds()
-    except SingletrackError as error:
-        console.print(f"no uncertainty of the critical speeds: {error}", markup=False)
-        return
-    for kind in ("weave", "capsize"):
-        pairs = zip(getattr(speeds, kind), getattr(speeds, f"{kind}_deviation"), strict=True)
-        console.print(
-            f"{kind} speed: " + (", ".join(f"{v:.4f} ± {s:.2g} m/s" for v, s in pairs) or "never"), markup=False
-        )
 
 
 def period(path: str | Path, plot: str | Path | None = None) -> None:

@@ -104,27 +104,12 @@ def fit_oscillation(time: Array, signal: Array, where: str = "signal") -> Oscill
     (1.6, True)
     """
     import numpy as np  # noqa: PLC0415
-    from scipy.optimize import least_squares  # noqa: PLC0415
 
     t, y = _checked(time, signal, where)
-    start = t[0]
+    start, scale = t[0], float(np.std(y))
     t = t - start
-    scale = float(np.std(y))
     y_scaled = (y - y.mean()) / scale
-    span = float(t[-1])
-    frequency = _spectral_peak(t, y_scaled)
-    if frequency * span < 1.5:  # periods in the record
-        raise InputError(f"{where}: holds {frequency * span:.2g} periods, must hold at least 1.5")
-
-    def residuals(x: np.ndarray) -> np.ndarray:
-        columns = _columns(t, *x)
-        coefficients = np.linalg.lstsq(columns, y_scaled, rcond=None)[0]
-        result: np.ndarray = columns @ coefficients - y_scaled
-        return result
-
-    bounds = ([-20 / span, 0.2 * frequency * 2 * math.pi], [200 / span, 5 * frequency * 2 * math.pi])
-    found = least_squares(residuals, [1 / span, 2 * math.pi * frequency], bounds=bounds, x_scale=[1 / span, 1 / span])
-    decay, omega = (float(x) for x in found.x)
+    decay, omega = _search(t, y_scaled, where)
     columns = _columns(t, decay, omega)
     offset, cosine, sine = (float(c) for c in np.linalg.lstsq(columns, y_scaled, rcond=None)[0])
     left = columns @ [offset, cosine, sine] - y_scaled
@@ -148,6 +133,27 @@ def fit_oscillation(time: Array, signal: Array, where: str = "signal") -> Oscill
         time=t + start,
         signal=y,
     )
+
+
+def _search(t: np.ndarray, y: np.ndarray, where: str) -> tuple[float, float]:
+    """Return decay in 1/s and angular frequency in rad/s of the best fit to a scaled signal."""
+    import numpy as np  # noqa: PLC0415
+    from scipy.optimize import least_squares  # noqa: PLC0415
+
+    span, frequency = float(t[-1]), _spectral_peak(t, y)
+    if frequency * span < 1.5:  # periods in the record
+        raise InputError(f"{where}: holds {frequency * span:.2g} periods, must hold at least 1.5")
+
+    def residuals(x: np.ndarray) -> np.ndarray:
+        columns = _columns(t, *x)
+        coefficients = np.linalg.lstsq(columns, y, rcond=None)[0]
+        result: np.ndarray = columns @ coefficients - y
+        return result
+
+    omega = 2 * math.pi * frequency
+    bounds = ([-20 / span, 0.2 * omega], [200 / span, 5 * omega])
+    found = least_squares(residuals, [1 / span, omega], bounds=bounds, x_scale=[1 / span, 1 / span])
+    return float(found.x[0]), float(found.x[1])
 
 
 def _checked(time: Array, signal: Array, where: str) -> tuple[np.ndarray, np.ndarray]:
