@@ -14,12 +14,13 @@ from pathlib import Path
 
 from singletrack import load_bicycle, load_rider
 from singletrack.errors import InputError
-from singletrack.parameters.files import load_any, read_text
+from singletrack.parameters.files import load_any, parse_record, read_text
 from singletrack.parameters.formats.parameter_sets import write_parameter_set
 from singletrack.parameters.formats.text import write_bicycle_text
 from singletrack.parameters.formats.toml import write_toml
 from singletrack.parameters.formats.yeadon import MEASUREMENTS, read_configuration
 from singletrack.parameters.oscillation import fit_oscillation, read_signal
+from singletrack.parameters.record import Record
 
 BAD_NUMBERS = (
     *("nan", "NaN", "inf", "-inf", "-1", "0", "-0.0", "1e308", "1e-308", "1e400", "9" * 400, "0x10", "1_000", "1,5"),
@@ -28,7 +29,7 @@ BAD_NUMBERS = (
 UNITS = ("m", "mm", "kg", "deg", "rad", "s", "kg*m^2", "m/s^2", "furlong", "m**9**9**9", "%", "°", "1/m", "", "kg/")
 # What a refusal of the file as a whole says; every other refusal names a line.
 WHOLE = re.compile(
-    r"lacks |is empty|has no \[parameters\]|looks like|is larger than|characters, must have|is not valid YAML$"
+    r"lacks |holds only |is empty|has no \[parameters\]|looks like|is larger than|characters, must have|is not valid YAML$"
     r"|end of document|nested too deeply|make no body|holds .* periods|explains .* of the signal|does not change"
     r"|has \(\d*,\) times|no decaying oscillation|time does not increase|not finite \(or beyond|Expected|Invalid|Cannot"
     r"|Unclosed|Unterminated|Found invalid|Illegal|Duplicate|is a '|Unescaped|Unsupported|Hex|invalid date"
@@ -195,8 +196,12 @@ def main(reader, count, seed, folder):
     for _ in range(count):
         path.write_bytes(rng.choice(MUTATIONS)(rng, text.encode()))
         try:
-            read(path)
+            record = read(path)
             result["read"] += 1
+            if isinstance(record, Record):  # what was read can be written and means the same
+                again = parse_record(type(record), write_toml(record), "again.toml")
+                assert again.values() == record.values()
+                assert again.shape == ()
         except InputError as error:
             result["refused"] += 1
             message = str(error)

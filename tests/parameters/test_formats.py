@@ -141,6 +141,7 @@ def test_symbols_are_those_of_the_field():
     ("old", "new", "says"),
     [
         ("c = 0.0563", "c = ", "line {line}: c has no value"),
+        ("c = 0.0563", "c = 0,0563", "line {line}: c found '0,0563', must have a decimal point"),
         ("c = 0.0563", "c = nan", "line {line}: c found 'nan', must be a finite number"),
         ("c = 0.0563", "c 0.0563", "line {line}: found 'c 0.0563', must be a line such as"),
         ("c = 0.0563", "c = 0.0563\nc = 0.06", "c is given twice (first on line {line})"),

@@ -36,6 +36,10 @@ def parse_number(text: str) -> Quantity:
     """
     if not text.strip():
         raise InputError("has no value, must be a number such as 0.0686 or 0.0686+/-0.0017")
+    if "," in text and "." not in text:
+        raise InputError(
+            f"found {text.strip()[:60]!r}, must have a decimal point (a comma separates values to average)"
+        )
     matches = [_ONE.fullmatch(part) for part in text.split(",")] if len(text) <= _LONGEST else [None]
     found = [(match["value"], match["deviation"]) for match in matches if match is not None]
     values = [float(value) for value, _ in found]

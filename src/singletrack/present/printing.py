@@ -77,8 +77,9 @@ def print_measured(console: Console, found: Measurement, other: Bicycle | None) 
         table.add_column(heading)
     agreements = {} if other is None else {a.name: a for a in compare_measured(found.bicycle, other)}
     if other is not None:
-        for heading in (Text(other.name or "other"), "difference / deviation", "agrees"):
-            table.add_column(heading)
+        table.add_column(Text(other.name or "other"))
+        table.add_column("difference / deviation")
+        table.add_column("agrees")
     for row in parameter_rows(found.bicycle):
         cells = [row.name, row.value, row.deviation]
         agreement = agreements.get(row.name)

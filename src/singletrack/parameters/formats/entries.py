@@ -126,7 +126,7 @@ def bicycle_from_entries(entries: Entries, source: str) -> Bicycle:
         For symbols that are unknown or missing, and values that are not allowed; names file, line and symbol.
     """
     entries.require_known([*SYMBOLS.values(), *_CONDITIONS, *_DEPENDENT], "symbol")
-    if set(entries.quantities) <= _RIGID_RIDER:
+    if "mB" in entries.quantities and set(entries.quantities) <= _RIGID_RIDER:
         raise InputError(
             f"{entries.where}: holds only {', '.join(entries.quantities)}: is a rigid rider or a lone body, must "
             "be a bicycle; `singletrack convert BICYCLE OUTPUT --rigid-rider FILE` puts a rigid rider on one"
