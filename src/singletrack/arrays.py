@@ -5,6 +5,8 @@
 
 from __future__ import annotations
 
+import functools
+import sys
 from typing import Any, TypeAlias
 
 __all__ = [
@@ -13,6 +15,7 @@ __all__ = [
     "cross",
     "dot",
     "is_concrete",
+    "is_jax",
     "matvec",
     "namespace",
     "skew",
@@ -23,20 +26,26 @@ __all__ = [
 Array: TypeAlias = Any
 
 
+@functools.cache
+def _numpy() -> Any:
+    import array_api_compat.numpy as xp  # noqa: PLC0415  # lazy: `import singletrack` stays light
+
+    return xp
+
+
 def namespace(*values: Array) -> Any:
-    """Return the array namespace of the values: that of their arrays, NumPy where all are plain numbers.
+    """Return the array namespace of the values: JAX if any is a JAX array, else NumPy.
 
     >>> namespace(1.0, 2.0).__name__
     'array_api_compat.numpy'
     """
-    import array_api_compat  # noqa: PLC0415  # lazy: `import singletrack` stays light
+    return sys.modules["jax.numpy"] if is_jax(*values) else _numpy()
 
-    arrays = [value for value in values if array_api_compat.is_array_api_obj(value)]
-    if arrays:
-        return array_api_compat.array_namespace(*arrays)
-    import array_api_compat.numpy as xp  # noqa: PLC0415
 
-    return xp
+def is_jax(*values: Array) -> bool:
+    """Tell whether any of the values is a JAX array (or stands for one while JAX traces a function)."""
+    jax = sys.modules.get("jax")
+    return jax is not None and any(isinstance(value, jax.Array) for value in values)
 
 
 def is_concrete(value: Array) -> bool:
@@ -48,10 +57,7 @@ def as_arrays(*values: Array) -> tuple[Any, tuple[Array, ...]]:
     """Return the namespace of the values and the values as arrays of floating-point (or complex) numbers."""
     xp = namespace(*values)
     arrays = (xp.asarray(value) for value in values)
-    return xp, tuple(
-        array if xp.isdtype(array.dtype, ("real floating", "complex floating")) else xp.astype(array, xp.float64)
-        for array in arrays
-    )
+    return xp, tuple(array if array.dtype.kind in "fc" else xp.astype(array, xp.float64) for array in arrays)
 
 
 def vector(*components: Array) -> Array:

@@ -11,7 +11,7 @@ With the mixed determinant D(A, B) = A11 B22 + B11 A22 - A12 B21 - B12 A21:
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from singletrack.arrays import Array, as_arrays, vector
 
@@ -50,6 +50,31 @@ class CharacteristicPolynomial:
             (a1[..., 0] + a1[..., 1] * u) * v,
             a0[..., 0] + (a0[..., 1] + a0[..., 2] * u) * u,
         )
+
+    def monic_at(self, speeds: Array) -> tuple[Array, Array, Array, Array]:
+        """Return b, c, d, e of s⁴ + b s³ + c s² + d s + e, each of shape (..., n), at speeds (n,) or (..., n)."""
+        _, (v,) = as_arrays(speeds)
+        u = v * v
+        b, c, d, e = (a / self.a4 for a in (self.a3, self.a2, self.a1, self.a0))
+        return (
+            b * v,
+            c[..., :1] + c[..., 1:] * u,
+            (d[..., :1] + d[..., 1:] * u) * v,
+            e[..., :1] + (e[..., 1:2] + e[..., 2:] * u) * u,
+        )
+
+    def rows(self, which: Any) -> CharacteristicPolynomial:
+        """Return the polynomials of some designs: an index or a mask of the first axis."""
+        return CharacteristicPolynomial(*(a[which] for a in (self.a4, self.a3, self.a2, self.a1, self.a0)))
+
+    def flat(self) -> tuple[CharacteristicPolynomial, tuple[int, ...]]:
+        """Return the polynomials with all designs on one axis, and the shape (...) of the batch, as NumPy arrays."""
+        import numpy as np  # noqa: PLC0415
+
+        all_five = [np.asarray(a) for a in (self.a4, self.a3, self.a2, self.a1, self.a0)]
+        batch = np.broadcast_shapes(*(a.shape[:-1] for a in all_five))
+        one_axis = (np.broadcast_to(a, (*batch, a.shape[-1])).reshape(-1, a.shape[-1]) for a in all_five)
+        return CharacteristicPolynomial(*one_axis), batch
 
 
 def mixed_determinant(a: Array, b: Array) -> Array:
