@@ -31,6 +31,9 @@ class ModelError(SingletrackError):
     """A multibody system that is not well defined; names the element."""
 
 
+_MOST_LISTED = 12
+
+
 def nearest(name: str, known: Iterable[str]) -> str:
     """Return a sentence part that offers the nearest known name, or nothing.
 
@@ -50,4 +53,5 @@ def unknown_name(what: str, name: str, known: Iterable[str]) -> str:
     "unknown posture 'uprite'; did you mean upright? (known: rigid, upright)"
     """
     known = list(known)
-    return f"unknown {what} {name!r}{nearest(name, known)} (known: {', '.join(known)})"
+    listing = f"known: {', '.join(known)}" if len(known) <= _MOST_LISTED else f"{len(known)} names are known"
+    return f"unknown {what} {name[:80]!r}{nearest(name, known)} ({listing})"

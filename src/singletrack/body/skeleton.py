@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from math import pi
 from typing import TYPE_CHECKING, Any
 
-from singletrack.arrays import Array, as_arrays, is_concrete, namespace, vector
+from singletrack.arrays import Array, as_arrays, is_concrete, namespace, stack, vector
 from singletrack.errors import InputError, PostureError
 from singletrack.faults import Fault, refuse_single
 
@@ -103,9 +103,8 @@ def skeleton(bicycle: Bicycle, rider: Rider) -> Skeleton:
     frame = _frame_points(bicycle)
     body, faults = _rider_points(frame, bicycle, rider)
     points = frame | body
-    xp, arrays = as_arrays(*(points[number] for number in range(1, 32)))
     where = " on ".join(name for name in (rider.name, bicycle.name) if name)
-    return Skeleton(xp.stack(xp.broadcast_arrays(*arrays), axis=-2), refuse_single(faults, where))
+    return Skeleton(stack([points[number] for number in range(1, 32)], -2), refuse_single(faults, where))
 
 
 def _frame_points(bicycle: Bicycle) -> dict[int, Array]:

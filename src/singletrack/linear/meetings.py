@@ -20,7 +20,7 @@ import numpy as np
 if TYPE_CHECKING:
     from singletrack.linear.characteristic import CharacteristicPolynomial
 
-__all__ = ["Meetings", "find_meetings"]
+__all__ = ["Meetings", "find_meetings", "meeting_speeds"]
 
 _MOST_MEETINGS = 6
 
@@ -88,6 +88,20 @@ def _passing(b: np.ndarray, c: np.ndarray, d: np.ndarray, e: np.ndarray) -> np.n
         R = e[:, 0] + (e[:, 1] + e[:, 2] * u) * u - b * (d[:, 0] + d[:, 1] * u) * u / 4 + bb * c_u / 16
         R -= 3 * bb * bb / 256
         return np.sqrt(np.where((u > 0) & (P > 0) & (R > 0) & (P * P > 4 * R), u, np.nan))
+
+
+def meeting_speeds(p: CharacteristicPolynomial) -> np.ndarray:
+    """Return the speeds in m/s at which roots of a single design meet, ascending.
+
+    >>> from singletrack import coefficients, load_bicycle
+    >>> from singletrack.linear.characteristic import characteristic_polynomial
+    >>> meeting_speeds(characteristic_polynomial(coefficients(load_bicycle("benchmark")))).round(6).tolist()
+    [0.684283]
+    """
+    single = (p.a4, p.a3, p.a2, p.a1, p.a0)
+    speeds = find_meetings(type(p)(*(np.reshape(a, (1, -1)) for a in single))).speeds[0]
+    found: np.ndarray = speeds[np.isfinite(speeds)]
+    return found
 
 
 def _speed_scale(p: CharacteristicPolynomial) -> np.ndarray:

@@ -9,7 +9,7 @@ bicycle and the speed alone, and all four roots are there at every speed.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
@@ -69,6 +69,11 @@ class Modes:
         """Phase of steer relative to lean, shape (..., n, 4), in rad: negative where steer lags."""
         phase: np.ndarray = np.angle(self.eigenmotions[..., 1])
         return phase
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return speeds, eigenvalues as [n][4][re, im] and the names of the columns, for JSON."""
+        parts = np.stack([self.eigenvalues.real, self.eigenvalues.imag], axis=-1)
+        return {"speeds": self.speeds.tolist(), "eigenvalues": parts.tolist(), "modes": list(self.names)}
 
     def to_xarray(self) -> xarray.Dataset:
         """Return eigenvalues and eigenmotions labelled by speed, mode and coordinate."""

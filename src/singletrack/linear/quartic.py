@@ -241,8 +241,8 @@ def _roots_into(
     roots: np.ndarray, good: np.ndarray, b: np.ndarray, c: np.ndarray, d: np.ndarray, e: np.ndarray
 ) -> None:
     with np.errstate(all="ignore"):
-        *factors, good[:] = factor(b, c, d, e, np.where, np.sqrt)
-        parts = ordered_roots(*factors, np.where, np.sqrt)
+        p1, q1, p2, q2, good[:] = factor(b, c, d, e, np.where, np.sqrt)
+        parts = ordered_roots(p1, q1, p2, q2, np.where, np.sqrt)
     for k in range(4):
         roots.real[:, k], roots.imag[:, k] = parts[k], parts[k + 4]
 

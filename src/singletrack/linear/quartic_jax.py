@@ -27,15 +27,15 @@ def quartic_roots(b: Any, c: Any, d: Any, e: Any) -> Any:
     InputError
         If JAX computes in single precision.
     """
-    coefficients = jnp.broadcast_arrays(*(jnp.asarray(a) for a in (b, c, d, e)))
+    coefficients: Any = tuple(jnp.broadcast_arrays(*(jnp.asarray(a) for a in (b, c, d, e))))
     if coefficients[0].dtype != jnp.float64:
         raise InputError(
             f"eigenvalues of {coefficients[0].dtype} JAX arrays: must be float64; put "
             'jax.config.update("jax_enable_x64", True) at the start of the program'
         )
     fixed = tuple(jax.lax.stop_gradient(a) for a in coefficients)
-    *factors, good = factor(*fixed, jnp.where, jnp.sqrt)
-    parts = ordered_roots(*factors, jnp.where, jnp.sqrt)
+    p1, q1, p2, q2, good = factor(fixed[0], fixed[1], fixed[2], fixed[3], jnp.where, jnp.sqrt)
+    parts = ordered_roots(p1, q1, p2, q2, jnp.where, jnp.sqrt)
     roots = jnp.stack(parts[:4], axis=-1) + 1j * jnp.stack(parts[4:], axis=-1)
     roots = jax.lax.stop_gradient(_iterate(roots, good, fixed))
     value, _, _ = _horner(roots, coefficients)
@@ -56,7 +56,7 @@ def _horner(s: Any, coefficients: tuple[Any, ...]) -> tuple[Any, Any, Any]:
 
 def _iterate(roots: Any, good: Any, coefficients: tuple[Any, ...]) -> Any:
     """Iterate those sets of roots (..., 4) that are not good yet until all their residuals are rounding."""
-    radius = sum(jnp.abs(a) ** (1 / (k + 1)) for k, a in enumerate(coefficients)) / 2 + 1e-300
+    radius: Any = sum(jnp.abs(a) ** (1 / (k + 1)) for k, a in enumerate(coefficients)) / 2 + 1e-300
     circle = radius[..., None] * jnp.exp(1j * (0.4 + jnp.pi / 2 * jnp.arange(4)))
     usable = jnp.all(jnp.isfinite(roots), axis=-1, keepdims=True)
     start = jnp.where(good[..., None] | usable, roots, circle)

@@ -18,7 +18,7 @@ from singletrack.parameters.units import parse_quantity
 if TYPE_CHECKING:
     from importlib.resources.abc import Traversable
 
-__all__ = ["load_bicycle", "load_rider", "override", "parse_record", "read_text", "shipped"]
+__all__ = ["load_any", "load_bicycle", "load_rider", "override", "parse_record", "read_text", "shipped"]
 
 R = TypeVar("R", bound=Record)
 
@@ -73,6 +73,27 @@ def load_rider(name_or_path: str | Path) -> Rider:
     72.0
     """
     return _load(Rider, name_or_path)
+
+
+def load_any(name_or_path: str | Path) -> Bicycle | Rider:
+    """Load a bicycle or a rider, whichever it is; errors as in :func:`load_bicycle`.
+
+    >>> load_any("rider-a").kind
+    'rider'
+    """
+    if str(name_or_path) in shipped("rider"):
+        return load_rider(name_or_path)
+    path = Path(name_or_path)
+    if str(name_or_path) not in shipped("bicycle") and path.is_file():
+        try:
+            kind = tomllib.loads(read_text(path)).get("kind", "bicycle")
+        except tomllib.TOMLDecodeError:
+            kind = "bicycle"  # which then says what is wrong with the file
+        return load_rider(path) if kind == "rider" else load_bicycle(path)
+    if str(name_or_path) not in shipped("bicycle"):
+        known = [*shipped("bicycle"), *shipped("rider")]
+        raise InputError(f"{unknown_name('name', str(name_or_path)[:200], known)}, and there is no such file")
+    return load_bicycle(name_or_path)
 
 
 def _load(cls: type[R], name_or_path: str | Path) -> R:

@@ -1,0 +1,262 @@
+"""The command line: arguments only; everything else is done by the layers below."""
+
+from __future__ import annotations
+
+import sys
+from enum import StrEnum
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from singletrack.errors import InputError, SingletrackError, unknown_name
+
+if TYPE_CHECKING:
+    from singletrack.linear import CoefficientMatrices
+
+__all__ = ["app", "main"]
+
+app = typer.Typer(
+    help="Lateral dynamics of bicycles with real riders, hands on the handlebar.",
+    no_args_is_help=True,
+    add_completion=False,
+    pretty_exceptions_enable=False,
+)
+
+
+class PostureName(StrEnum):
+    """Postures of a rider."""
+
+    rigid = "rigid"
+    leaned = "leaned"
+    upright = "upright"
+
+
+class ShoulderName(StrEnum):
+    """Second axis of the shoulder joint."""
+
+    abduction = "abduction"
+    axial = "axial"
+
+
+class EngineName(StrEnum):
+    """The two independent derivations."""
+
+    closed_form = "closed-form"
+    multibody = "multibody"
+
+
+class RecordKind(StrEnum):
+    """Kinds of parameter files."""
+
+    bicycle = "bicycle"
+    rider = "rider"
+
+
+BicycleArgument = Annotated[str, typer.Argument(metavar="BICYCLE", help="A shipped name or a file.")]
+RiderOption = Annotated[
+    str | None, typer.Option("--rider", metavar="RIDER", help="A shipped name or a file; without: no rider.")
+]
+PostureOption = Annotated[PostureName, typer.Option("--posture", help="rigid: hands free.")]
+ShoulderOption = Annotated[
+    ShoulderName | None, typer.Option("--shoulder", help="Second shoulder axis; by default as the posture has it.")
+]
+EngineOption = Annotated[EngineName, typer.Option("--engine", help="Which derivation to use.")]
+SetOption = Annotated[
+    list[str] | None,
+    typer.Option("--set", metavar="NAME=VALUE", help='Change a parameter, e.g. "steer_axis_tilt=18.5 deg".'),
+]
+SpeedsOption = Annotated[
+    str, typer.Option("--speeds", metavar="START:STOP:COUNT", help="Forward speeds in m/s, or one value.")
+]
+JsonOption = Annotated[bool, typer.Option("--json", help="Print JSON in full precision.")]
+CsvOption = Annotated[bool, typer.Option("--csv", help="Print CSV in full precision.")]
+
+
+def _changes(settings: list[str] | None) -> dict[str, str]:
+    changes = {}
+    for setting in settings or []:
+        name, sign, value = setting.partition("=")
+        if not sign or not value.strip():
+            raise InputError(f"--set {setting!r}: found no value; must be NAME=VALUE, e.g. --set trail=0.06")
+        changes[name.strip()] = value.strip()
+    return changes
+
+
+def _model(
+    bicycle_name: str,
+    rider_name: str | None,
+    posture: PostureName,
+    shoulder: ShoulderName | None,
+    engine: EngineName,
+    settings: list[str] | None,
+) -> tuple[CoefficientMatrices, str]:
+    """Return the coefficient matrices that the arguments ask for, and a title."""
+    from singletrack.parameters import Rider, load_bicycle, load_rider
+    from singletrack.parameters.files import override
+
+    changes = _changes(settings)
+    bicycle = load_bicycle(bicycle_name)
+    rider = None if rider_name is None else load_rider(rider_name)
+    known = list(bicycle.descriptions())
+    for name in changes:
+        if rider is None and name in Rider.descriptions():
+            raise InputError(f"--set {name}: is a parameter of a rider, and there is no --rider")
+        if name not in known and name not in Rider.descriptions():
+            raise InputError(
+                f"--set: {unknown_name('parameter', name, known + list(rider.descriptions() if rider else []))}"
+            )
+    bicycle = override(bicycle, {name: text for name, text in changes.items() if name in known})
+    if rider is not None:
+        rider = override(rider, {name: text for name, text in changes.items() if name not in known})
+    shoulder_name = None if shoulder is None else shoulder.value
+    title = bicycle.name if rider is None else f"{bicycle.name} with {rider.name}, {posture.value}"
+    if engine is EngineName.multibody:
+        raise InputError("--engine multibody is not part of this version; allowed: closed-form")
+    from singletrack.linear import coefficients as closed_form
+
+    return closed_form(bicycle, rider, posture.value, shoulder_name), title
+
+
+def _print_json(value: Any) -> None:
+    import json
+
+    typer.echo(json.dumps(value, indent=1))
+
+
+def _print(renderable: Any) -> None:
+    from rich.console import Console
+
+    Console(highlight=False).print(renderable)
+
+
+@app.command()
+def coefficients(
+    bicycle: BicycleArgument,
+    rider: RiderOption = None,
+    posture: PostureOption = PostureName.rigid,
+    shoulder: ShoulderOption = None,
+    engine: EngineOption = EngineName.closed_form,
+    settings: SetOption = None,
+    json: JsonOption = False,
+) -> None:
+    """Print the coefficient matrices M, C1, K0 and K2."""
+    model, title = _model(bicycle, rider, posture, shoulder, engine, settings)
+    if json:
+        _print_json(model.to_dict())
+        return
+    from singletrack.present.tables import coefficients_table
+
+    _print(coefficients_table(model, title))
+
+
+@app.command()
+def eigenvalues(
+    bicycle: BicycleArgument,
+    rider: RiderOption = None,
+    posture: PostureOption = PostureName.rigid,
+    shoulder: ShoulderOption = None,
+    engine: EngineOption = EngineName.closed_form,
+    settings: SetOption = None,
+    speeds: SpeedsOption = "0:10:11",
+    json: JsonOption = False,
+    csv: CsvOption = False,
+) -> None:
+    """Print the eigenvalues at forward speeds, one column for each mode."""
+    from singletrack.present.tables import eigenvalues_csv, eigenvalues_table
+    from singletrack.speeds import parse_speeds
+
+    if json and csv:
+        raise InputError("--json and --csv exclude each other")
+    values = parse_speeds(speeds)
+    model, title = _model(bicycle, rider, posture, shoulder, engine, settings)
+    modes = model.modes(values)
+    if json:
+        _print_json(modes.to_dict())
+    elif csv:
+        typer.echo(eigenvalues_csv(modes), nl=False)
+    else:
+        _print(eigenvalues_table(modes, title))
+
+
+@app.command("critical-speeds")
+def critical_speeds(
+    bicycle: BicycleArgument,
+    rider: RiderOption = None,
+    posture: PostureOption = PostureName.rigid,
+    shoulder: ShoulderOption = None,
+    engine: EngineOption = EngineName.closed_form,
+    settings: SetOption = None,
+    json: JsonOption = False,
+) -> None:
+    """Print weave and capsize speeds and the stable ranges."""
+    model, title = _model(bicycle, rider, posture, shoulder, engine, settings)
+    speeds = model.critical_speeds()
+    if json:
+        _print_json(speeds.to_dict())
+        return
+    from singletrack.present.tables import critical_speeds_text
+
+    typer.echo(f"{title}\n{critical_speeds_text(speeds)}")
+
+
+@app.command("list")
+def list_shipped() -> None:
+    """List the bicycles and riders that come with the package."""
+    from singletrack.parameters import load_bicycle, load_rider, shipped
+
+    for kind, load in (("bicycle", load_bicycle), ("rider", load_rider)):
+        typer.echo(f"{kind}s")
+        for name in shipped(kind):
+            typer.echo(f"  {name:<12}{load(name).description}")
+
+
+@app.command()
+def show(name: Annotated[str, typer.Argument(metavar="NAME", help="A shipped name or a file.")]) -> None:
+    """Print the parameters of a bicycle or rider."""
+    from singletrack.parameters.files import load_any
+    from singletrack.present.tables import record_table
+
+    _print(record_table(load_any(name)))
+
+
+@app.command()
+def template(kind: Annotated[RecordKind, typer.Argument(help="bicycle or rider")]) -> None:
+    """Print a commented parameter file to fill in."""
+    from singletrack.parameters.template import template as text
+
+    typer.echo(text(kind.value), nl=False)
+
+
+@app.command()
+def reproduce(
+    output: Annotated[Path, typer.Option("--output", metavar="DIR", help="Where to write; made if needed.")] = Path(
+        "singletrack-output"
+    ),
+) -> None:
+    """Reproduce the paper: matrices, eigenvalues, figures, and a report that checks every printed number."""
+    from singletrack.reproduce import reproduce as run
+
+    report = run(output)
+    typer.echo(f"report: {report}")
+
+
+def main() -> None:
+    """Run the command line; one message and exit code 2 for anything the user can mend."""
+    # typer may carry a click of its own: take the base of its usage errors from itself.
+    usage_error: Any = next(base for base in typer.BadParameter.__mro__ if base.__name__ == "ClickException")
+    try:
+        code = app(standalone_mode=False)
+    except SingletrackError as error:
+        typer.echo(f"singletrack: {error}", err=True)
+        code = 2
+    except (typer.Abort, KeyboardInterrupt):
+        typer.echo("singletrack: interrupted", err=True)
+        code = 130
+    except BrokenPipeError:
+        sys.stderr.close()  # the reader of a pipe has seen enough
+        code = 0
+    except usage_error as error:
+        typer.echo(f"singletrack: {error.format_message()}", err=True)
+        code = 2
+    sys.exit(code if isinstance(code, int) else 0)

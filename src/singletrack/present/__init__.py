@@ -1,0 +1,1 @@
+"""Figures, tables and reports: results in, pictures and text out; nothing is computed here."""

@@ -1,0 +1,102 @@
+"""The eigenvalue figure: real and imaginary parts over the forward speed, as in the paper's Figures 4 and 5."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from singletrack.present.labels import Curve, label_curves
+from singletrack.present.style import COLOURS, new_figure, style
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+    from singletrack.linear import CriticalSpeeds, Modes
+
+__all__ = ["draw_eigenvalues", "eigenvalue_figure"]
+
+
+def eigenvalue_figure(modes: Modes, critical: CriticalSpeeds, title: str, limit: float = 10.0) -> Figure:
+    """Return a figure of the eigenvalues of a single design.
+
+    Parameters
+    ----------
+    modes : Modes
+        At ascending speeds.
+    critical : CriticalSpeeds
+    title : str
+    limit : float
+        The vertical axis runs from -limit to limit, in 1/s.
+    """
+    with style():
+        figure = new_figure(6.4, 4.6)
+        axes = figure.add_subplot()
+        axes.set_title(title, loc="left", fontsize=10, pad=18)
+        draw_eigenvalues(axes, modes, critical, limit)
+    return figure
+
+
+def draw_eigenvalues(axes: Axes, modes: Modes, critical: CriticalSpeeds, limit: float = 10.0) -> None:
+    """Draw the eigenvalues of a single design on axes (see :func:`eigenvalue_figure`)."""
+    v = modes.speeds
+    axes.set_xlim(float(v[0]), float(v[-1]))
+    axes.set_ylim(-limit, limit)
+    axes.set_xlabel("forward speed v (m/s)")
+    axes.set_ylabel("eigenvalues: Re λ solid, Im λ dashed (1/s)")
+    for low, high in critical.stable_ranges:
+        axes.axvspan(low, min(high, float(v[-1])), color=COLOURS["stable"], lw=0, zorder=0)
+    axes.axhline(0.0, color="black", lw=0.8, zorder=1)
+    marked = _mark_speeds(axes, critical)
+    curves = _mode_curves(modes)
+    for curve, dashed in curves:
+        axes.plot(curve.x, curve.y, color=curve.colour, ls=(0, (4, 2)) if dashed else "-", zorder=3)
+    stable = [_stable_label(low, min(high, float(v[-1])), limit) for low, high in critical.stable_ranges]
+    wide = [label for label, (low, high) in zip(stable, critical.stable_ranges, strict=True) if high - low > 0.6]
+    label_curves(axes, [*(curve for curve, _ in curves), Curve(v, 0.0 * v, "", "black"), *wide], marked)
+
+
+def _stable_label(low: float, high: float, limit: float) -> Curve:
+    """Return the places in the middle of a stable range where the word may stand."""
+    heights = np.linspace(-0.95 * limit, 0.95 * limit, 40)
+    return Curve(np.full(40, (low + high) / 2), heights, "stable", "#3B7A32", on_points=True)
+
+
+def _mark_speeds(axes: Axes, critical: CriticalSpeeds) -> list[float]:
+    """Mark the critical speeds in view with a line and a word above the axes; return them."""
+    low, high = axes.get_xlim()
+    marks = sorted(
+        [(speed, "weave") for speed in critical.weave if low < speed < high]
+        + [(speed, "capsize") for speed in critical.capsize if low < speed < high]
+    )
+    for index, (speed, name) in enumerate(marks):
+        axes.axvline(speed, color=COLOURS[name], lw=0.9, ls=":", zorder=2)
+        close = len(marks) > 1 and min(abs(speed - other) for other, _ in marks if other != speed) < 0.35 * (high - low)
+        side = "center" if not close else ("right" if index == 0 else "left")
+        axes.annotate(
+            f"{name} speed {speed:.2f} m/s",
+            (speed, 1.0),
+            xycoords=("data", "axes fraction"),
+            xytext=({"center": 0, "right": -2, "left": 2}[side], 3),
+            textcoords="offset points",
+            ha=side,
+            va="bottom",
+            fontsize=8,
+            color=COLOURS[name],
+        )
+    return [speed for speed, _ in marks]
+
+
+def _mode_curves(modes: Modes) -> list[tuple[Curve, bool]]:
+    """Return the curves of the modes, and whether they are dashed (imaginary parts, where not zero)."""
+    v, roots = modes.speeds, modes.eigenvalues
+    curves = []
+    for column, name in enumerate(modes.names):
+        colour = COLOURS[name]
+        imaginary = np.where(roots[:, column].imag > 0, roots[:, column].imag, np.nan)
+        second_of_pair = column == 1
+        curves.append((Curve(v, roots[:, column].real, "" if second_of_pair else f"Re {name}", colour), False))
+        if np.isfinite(imaginary).any():
+            curves.append((Curve(v, imaginary, "" if second_of_pair else f"Im {name}", colour), True))
+    return curves

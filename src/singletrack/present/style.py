@@ -1,0 +1,70 @@
+"""One look for all figures, and files that are the same bytes every time."""
+
+from __future__ import annotations
+
+import io
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from matplotlib.figure import Figure
+
+__all__ = ["COLOURS", "figure_bytes", "new_figure", "style"]
+
+#: Colour of each mode and part, distinguishable with all common kinds of colour blindness (Okabe and Ito).
+COLOURS = {
+    "weave": "#0072B2",
+    "capsize": "#D55E00",
+    "castering": "#009E73",
+    "stable": "#DDEFD9",
+    "frame": "#555555",
+    "front": "#CC79A7",
+    "rider": "#E69F00",
+    "moved": "#56B4E9",
+}
+
+_PARAMETERS: Any = {
+    "font.size": 9.0,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.linewidth": 0.8,
+    "lines.linewidth": 1.6,
+    "figure.dpi": 100,
+    "savefig.dpi": 150,
+    "svg.fonttype": "path",
+    "svg.hashsalt": "singletrack",  # identifiers in the file depend on its content only
+    "path.simplify": True,
+}
+
+
+@contextmanager
+def style() -> Iterator[None]:
+    """Draw with the package's look inside this context, without touching the user's settings."""
+    import matplotlib as mpl  # noqa: PLC0415  # lazy: heavy
+
+    with mpl.rc_context(_PARAMETERS):
+        yield
+
+
+def new_figure(width: float, height: float) -> Figure:
+    """Return an empty figure of a size in inches, independent of any window system."""
+    from matplotlib.backends.backend_agg import FigureCanvasAgg  # noqa: PLC0415
+    from matplotlib.figure import Figure  # noqa: PLC0415
+
+    figure = Figure(figsize=(width, height), layout="constrained")
+    FigureCanvasAgg(figure)
+    return figure
+
+
+def figure_bytes(figure: Figure, kind: str) -> bytes:
+    """Return a figure as the content of a file, ``kind`` "png" or "svg": no date, the same bytes each time."""
+    metadata: Any = {"svg": {"Date": None, "Creator": "singletrack"}, "png": {"Software": "singletrack"}}[kind]
+    content = io.BytesIO()
+    with style():
+        if figure.get_layout_engine() is not None:
+            figure.draw_without_rendering()
+            figure.set_layout_engine("none")  # laid out once, the same for every kind of file
+        figure.savefig(content, format=kind, metadata=metadata)
+    return content.getvalue()

@@ -1,0 +1,134 @@
+"""The report: one self-contained HTML file that opens offline, and the same in Markdown."""
+
+from __future__ import annotations
+
+import base64
+import datetime as dt
+from dataclasses import dataclass
+from html import escape
+from typing import TYPE_CHECKING
+
+from singletrack import __version__
+from singletrack.present.tables import critical_speeds_text
+
+if TYPE_CHECKING:
+    from singletrack.reproduce.cases import Case
+    from singletrack.reproduce.claims import Claim
+
+__all__ = ["Picture", "html_report", "markdown_report"]
+
+_TITLE = "Lateral dynamics of a bicycle with passive rider model: reproduced"
+_INTRODUCTION = (
+    "From the tape-measure data of Tables 1 to 4 of Schwab and Kooijman's paper, the Stratos and the Browser with "
+    "Rider A in three postures: rigid (hands free), leaned (stretched arms, twisting torso) and upright (flexed arms). "
+    "Each printed number and each sentence about eigenvalues stands beside what was computed."
+)
+_CLAIM_HEADER = ("section", "the paper says", "computed", "verdict", "note")
+
+
+@dataclass(frozen=True)
+class Picture:
+    """A figure of the report: file name without suffix, caption, subject, PNG content."""
+
+    name: str
+    caption: str
+    subject: str
+    png: bytes = b""
+
+
+def _verdict(claim: Claim) -> str:
+    return "holds" if claim.holds else "does not hold"
+
+
+def _summary(claims: list[Claim]) -> str:
+    good = sum(claim.holds for claim in claims)
+    return f"{good} of {len(claims)} statements hold."
+
+
+def _made() -> str:
+    today = dt.datetime.now(tz=dt.UTC).date().isoformat()
+    return f"Made with singletrack {__version__} on {today}."
+
+
+def _matrix_rows(case: Case) -> list[tuple[str, list[list[str]]]]:
+    return [
+        (name, [[f"{value + 0.0:.6f}" for value in row] for row in getattr(case.model, name).tolist()])
+        for name in ("M", "C1", "K0", "K2")
+    ]
+
+
+def markdown_report(cases: dict[str, Case], claims: list[Claim], pictures: list[Picture]) -> str:
+    """Return the report as Markdown; figures are linked, in ``figures/`` beside it."""
+    lines = [f"# {_TITLE}", "", _INTRODUCTION, "", _made(), "", "## The paper and the computation", ""]
+    lines += [_summary(claims), "", "| " + " | ".join(_CLAIM_HEADER) + " |", "|---" * len(_CLAIM_HEADER) + "|"]
+    for claim in claims:
+        cells = (claim.section, claim.says, claim.computed, f"**{_verdict(claim)}**", claim.note)
+        lines.append("| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |")
+    lines += ["", "## Figures", ""]
+    for picture in pictures:
+        lines += [f"![{picture.caption}](figures/{picture.name}.png)", "", picture.caption, ""]
+    lines += ["## Matrices and critical speeds", ""]
+    for case in cases.values():
+        lines += [f"### {case.name}", "", "```text"]
+        for name, rows in _matrix_rows(case):
+            lines += [f"{name if i == 0 else '':<3} [ {row[0]:>12} {row[1]:>12} ]" for i, row in enumerate(rows)]
+        lines += ["", critical_speeds_text(case.critical), "```", ""]
+    return "\n".join(lines)
+
+
+_CSS = """
+body { font: 15px/1.5 system-ui, sans-serif; max-width: 70rem; margin: 2rem auto; padding: 0 1rem; color: #222; }
+table { border-collapse: collapse; margin: 1rem 0; }
+th, td { border-bottom: 1px solid #ddd; padding: .35rem .6rem; text-align: left; vertical-align: top; }
+td.number { text-align: right; font-variant-numeric: tabular-nums; }
+.holds { color: #1b6e2c; font-weight: 600; white-space: nowrap; }
+.fails { color: #a33b00; font-weight: 600; white-space: nowrap; }
+figure { display: inline-block; margin: 1rem 1rem 1rem 0; vertical-align: top; max-width: 33rem; }
+figure img { width: 100%; }
+figcaption { font-size: 13px; color: #555; }
+.cases { display: flex; flex-wrap: wrap; gap: 1rem 3rem; }
+pre { background: #f6f6f6; padding: .6rem; font-size: 13px; }
+"""
+
+
+def html_report(cases: dict[str, Case], claims: list[Claim], pictures: list[Picture]) -> str:
+    """Return the report as one HTML file with everything in it."""
+    head = f'<meta charset="utf-8"><title>{_TITLE}</title><style>{_CSS}</style>'
+    parts = [
+        f'<!DOCTYPE html>\n<html lang="en"><head>{head}</head><body>',
+        f"<h1>{_TITLE}</h1>\n<p>{_INTRODUCTION}</p>\n<p>{_made()}</p>",
+        f"<h2>The paper and the computation</h2>\n<p>{_summary(claims)}</p>",
+        _html_claims(claims),
+        "<h2>Figures</h2>",
+        *(_html_figure(picture) for picture in pictures),
+        '<h2>Matrices and critical speeds</h2>\n<div class="cases">',
+        *(_html_case(case) for case in cases.values()),
+        "</div></body></html>\n",
+    ]
+    return "\n".join(parts)
+
+
+def _html_claims(claims: list[Claim]) -> str:
+    head = "".join(f"<th>{escape(name)}</th>" for name in _CLAIM_HEADER)
+    rows = [
+        f"<tr><td>{escape(claim.section)}</td><td>{escape(claim.says)}</td><td>{escape(claim.computed)}</td>"
+        f'<td class="{"holds" if claim.holds else "fails"}">{_verdict(claim)}</td><td>{escape(claim.note)}</td></tr>'
+        for claim in claims
+    ]
+    return f"<table><tr>{head}</tr>\n" + "\n".join(rows) + "</table>"
+
+
+def _html_figure(picture: Picture) -> str:
+    content = base64.b64encode(picture.png).decode()
+    image = f'<img alt="{escape(picture.caption)}" src="data:image/png;base64,{content}">'
+    return f"<figure>{image}<figcaption>{escape(picture.caption)}</figcaption></figure>"
+
+
+def _html_case(case: Case) -> str:
+    rows = []
+    for name, matrix in _matrix_rows(case):
+        for i, row in enumerate(matrix):
+            cells = "".join(f'<td class="number">{value}</td>' for value in row)
+            rows.append(f"<tr><th>{name if i == 0 else ''}</th>{cells}</tr>")
+    speeds = escape(critical_speeds_text(case.critical))
+    return f"<section><h3>{escape(case.name)}</h3><table>{''.join(rows)}</table><pre>{speeds}</pre></section>"

@@ -1,0 +1,146 @@
+"""Compute, draw, write: what `singletrack reproduce` does."""
+
+from __future__ import annotations
+
+import json
+from typing import TYPE_CHECKING
+
+from singletrack.body.skeleton import POINT_NAMES
+from singletrack.present.drawings import posture_figure
+from singletrack.present.eigenvalues import eigenvalue_figure
+from singletrack.present.files import prepare_folder, write_whole
+from singletrack.present.phasors import phasor_figure
+from singletrack.present.style import figure_bytes
+from singletrack.present.tables import eigenvalues_csv, write_csv
+from singletrack.reproduce.cases import Case, paper_cases
+from singletrack.reproduce.claims import Claim, check_claims
+from singletrack.reproduce.report import Picture, html_report, markdown_report
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+    from pathlib import Path
+
+    from matplotlib.figure import Figure
+
+__all__ = ["reproduce"]
+
+#: The paper's figures of eigenvalues, and the case that each shows.
+_EIGENVALUE_FIGURES = {
+    "4a": ("stratos-rigid", "Stratos with fully rigid rider, hands free"),
+    "4b": ("stratos-leaned", "Stratos with stretched arms, hands on the bar, yawing upper body"),
+    "5a": ("browser-rigid", "Browser with fully rigid rider, hands free"),
+    "5b": ("browser-upright", "Browser with rigid upper body, flexed arms, hands on the bar"),
+}
+_PHASOR_SPEED = 5.0
+
+
+def reproduce(output: Path) -> Path:
+    """Reproduce the paper, with progress shown, and return the path of the report.
+
+    Parameters
+    ----------
+    output : Path
+        Folder to write to, made if it does not exist: ``report.html`` (self-contained), ``report.md``, ``figures/``
+        (PNG and SVG), ``tables/`` (CSV), ``coefficients/`` (JSON).
+
+    Raises
+    ------
+    InputError
+        If the folder cannot be written to; nothing is computed then.
+    """
+    from rich.console import Console  # noqa: PLC0415
+    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn  # noqa: PLC0415
+
+    prepare_folder(output)
+    columns = (TextColumn("{task.description:<34}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
+    with Progress(*columns, console=Console(stderr=True)) as progress:
+        cases = paper_cases()
+        jobs = list(_drawings(cases))
+        task = progress.add_task("matrices, eigenvalues, claims", total=len(jobs) + 2)
+        claims = check_claims(cases)
+        _write_tables(output, cases, claims)
+        progress.advance(task)
+        pictures = []
+        for picture, draw in jobs:
+            progress.update(task, description=f"figure {picture.name}")
+            pictures.append(_drawn(output, picture, draw))
+            progress.advance(task)
+        progress.update(task, description="report")
+        write_whole(output / "report.md", markdown_report(cases, claims, pictures))
+        write_whole(output / "report.html", html_report(cases, claims, pictures))
+        progress.update(task, advance=1, description="done")
+    return output / "report.html"
+
+
+def _drawings(cases: dict[str, Case]) -> Iterator[tuple[Picture, Callable[[], Figure]]]:
+    """Yield every figure with the call that draws it."""
+
+    def eigenvalues(number: str) -> Callable[[], Figure]:
+        name, caption = _EIGENVALUE_FIGURES[number]
+        return lambda: eigenvalue_figure(cases[name].modes, cases[name].critical, caption)
+
+    def posture(case: Case) -> Callable[[], Figure]:
+        return lambda: posture_figure(case.bicycle, case.seated, case.title)
+
+    def phasors(bicycle: str) -> Callable[[], Figure]:
+        rows = [
+            (case.posture, case.model.modes(_PHASOR_SPEED))
+            for case in cases.values()
+            if case.bicycle.name == bicycle and case.shoulder is None
+        ]
+        return lambda: phasor_figure(rows, 0, f"{bicycle.title()}, Rider A, at {_PHASOR_SPEED:g} m/s")
+
+    for number, (name, caption) in _EIGENVALUE_FIGURES.items():
+        yield Picture(f"figure-{number}", f"Figure {number}. {caption}.", name), eigenvalues(number)
+    for case in cases.values():
+        if case.shoulder is None:
+            caption = f"{case.title}: side and top view from the skeleton points."
+            yield Picture(f"posture-{case.name}", caption, case.name), posture(case)
+    for bicycle in ("stratos", "browser"):
+        caption = (
+            f"{bicycle.title()}: eigenmotions at {_PHASOR_SPEED:g} m/s in each posture, lean and steer as phasors."
+        )
+        yield Picture(f"eigenmotions-{bicycle}", caption, bicycle), phasors(bicycle)
+
+
+def _drawn(output: Path, picture: Picture, draw: Callable[[], Figure]) -> Picture:
+    figure = draw()
+    contents = {kind: figure_bytes(figure, kind) for kind in ("png", "svg")}
+    for kind, content in contents.items():
+        write_whole(output / "figures" / f"{picture.name}.{kind}", content)
+    return Picture(picture.name, picture.caption, picture.subject, contents["png"])
+
+
+def _write_tables(output: Path, cases: dict[str, Case], claims: list[Claim]) -> None:
+    tables = output / "tables"
+    for case in cases.values():
+        text = json.dumps(case.model.to_dict(), indent=1) + "\n"
+        write_whole(output / "coefficients" / f"{case.name}.json", text)
+        write_whole(tables / f"eigenvalues-{case.name}.csv", eigenvalues_csv(case.modes))
+        if case.shoulder is None and case.posture == "rigid":
+            points = zip(range(1, 32), POINT_NAMES, case.seated.skeleton.points.tolist(), strict=True)
+            rows = [[number, name, *point] for number, name, point in points]
+            content = write_csv(["point", "name", "x", "y", "z"], rows)
+            write_whole(tables / f"skeleton-{case.bicycle.name}.csv", content)
+    write_whole(
+        tables / "critical-speeds.csv",
+        write_csv(
+            ["case", "weave", "capsize", "stable_ranges"],
+            (
+                [
+                    case.name,
+                    " ".join(map(repr, case.critical.weave)),
+                    " ".join(map(repr, case.critical.capsize)),
+                    " ".join(f"{low!r}:{high!r}" for low, high in case.critical.stable_ranges),
+                ]
+                for case in cases.values()
+            ),
+        ),
+    )
+    write_whole(
+        tables / "claims.csv",
+        write_csv(
+            ["section", "paper", "computed", "holds", "note"],
+            ([claim.section, claim.says, claim.computed, claim.holds, claim.note] for claim in claims),
+        ),
+    )
