@@ -178,14 +178,15 @@ def _two_link_joint(
     xp, (first, second) = as_arrays(first, second)
     dx, dz = end[..., 0] - start[..., 0], end[..., 2] - start[..., 2]
     distance = xp.sqrt(dx**2 + dz**2)
-    cosine = (distance**2 + first**2 - second**2) / (2 * distance * first)
-    outside = xp.abs(cosine) > 1 if is_concrete(cosine) else False
-    angle = xp.atan2(dx, dz) + bend * xp.acos(xp.where(outside, xp.nan, cosine))
-    joint = start + vector(first * xp.sin(angle), 0.0, first * xp.cos(angle))
+    # The joint divides the distance at "along" and lies "aside" of it; no angles, so that it is cheap and analytic.
+    along = (distance**2 + first**2 - second**2) / (2 * distance)
+    aside = bend * _other_leg(xp, first, along)
+    joint = start + vector((along * dx + aside * dz) / distance, 0.0, (along * dz - aside * dx) / distance)
+    distance, first, second = (xp.real(length) for length in (distance, first, second))
     ends, lengths = _LIMBS[limb]
-    found = {"distance": distance, "reach": first + second, "least": abs(first - second)}
+    found = {"distance": distance, "reach": first + second, "least": xp.abs(first - second)}
     text = f"the {ends} distance is {{distance:.4f}} m, but the {limb} ({lengths}) "
-    too_far, too_near = distance > first + second, distance < abs(first - second)
+    too_far, too_near = distance > first + second, distance < xp.abs(first - second)
     return joint, [
         Fault(too_far, text + "reaches only {reach:.4f} m", found, PostureError),
         Fault(too_near, text + "cannot fold below {least:.4f} m", found, PostureError),
