@@ -112,7 +112,11 @@ def _model(
     shoulder_name = None if shoulder is None else shoulder.value
     title = bicycle.name if rider is None else f"{bicycle.name} with {rider.name}, {posture.value}"
     if engine is EngineName.multibody:
-        raise InputError("--engine multibody is not part of this version; allowed: closed-form")
+        from singletrack.linear import CoefficientMatrices
+        from singletrack.multibody import coefficients as derived
+
+        c = derived(bicycle, rider, posture.value, shoulder_name)
+        return CoefficientMatrices(c.M, c.C1, c.K0, c.K2, c.gravity), title
     from singletrack.linear import coefficients as closed_form
 
     return closed_form(bicycle, rider, posture.value, shoulder_name), title

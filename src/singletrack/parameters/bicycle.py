@@ -115,11 +115,13 @@ def _inertia_faults(name: str, xx: Array, yy: Array, zz: Array, xz: Array) -> It
     if not all(is_concrete(value) and np.asarray(value).dtype.kind in "iufc" for value in entries):
         return
     xx, yy, zz, xz = (np.real(np.asarray(value)) for value in entries)
+    finite = np.isfinite(xx) & np.isfinite(yy) & np.isfinite(zz) & np.isfinite(xz)
+    xx, yy, zz, xz = (np.where(finite, value, 1.0) for value in (xx, yy, zz, xz))
     mean, half = (xx + zz) / 2, np.hypot((xx - zz) / 2, xz)
     smallest, largest = mean - half, mean + half
     found = {"xx": xx, "yy": yy, "zz": zz, "xz": xz, "small": smallest, "large": largest}
     tensor = f"{name} (xx {{xx:.6g}}, yy {{yy:.6g}}, zz {{zz:.6g}}, xz {{xz:.6g}}) kg*m**2 is no body's: "
-    usable = np.isfinite(mean) & np.isfinite(half) & (yy > 0) & (xx > 0) & (zz > 0)
+    usable = finite & (yy > 0) & (xx > 0) & (zz > 0)
     yield Fault(
         usable & (smallest <= 0),
         tensor + "the moment about a principal axis in the x-z plane is {small:.6g}, must be greater than zero",

@@ -155,7 +155,8 @@ def _faults_of_value(name: str, value: Array, description: Parameter) -> Iterato
 
     array = np.asarray(value)
     if array.dtype.kind not in "iufc":
-        yield Fault(bad=True, text=f"{name} = {value!r} is not a number", error=InputError)
+        found = repr(value)[:80].replace("{", "{{").replace("}", "}}")
+        yield Fault(bad=True, text=f"{name} = {found} is not a number", error=InputError)
         return
     unit = f" {description.unit}" if description.unit else ""
     words, test = ALLOWED[description.allowed]

@@ -121,8 +121,34 @@ def _scaled(value: float, factor: float) -> float:
     return value / inverse if inverse and abs(factor * inverse - 1) < 1e-15 else value * factor
 
 
+#: Factors of the usual spellings, by (written, wanted): pint, slow to import, is then not needed (tested against it).
+COMMON_FACTORS = {
+    ("m", "m"): 1.0,
+    ("cm", "m"): 0.01,
+    ("mm", "m"): 0.001,
+    ("kg", "kg"): 1.0,
+    ("g", "kg"): 0.001,
+    ("rad", "rad"): 1.0,
+    ("deg", "rad"): 0.017453292519943295,
+    ("kg*m^2", "kg*m**2"): 1.0,
+    ("N/kg", "m/s**2"): 1.0,
+    ("m/s^2", "m/s**2"): 1.0,
+}
+
+
 def _factor(found: str, text: str, unit: str) -> float:
-    import pint  # noqa: PLC0415
+    if (text, unit) in COMMON_FACTORS:
+        return COMMON_FACTORS[text, unit]
+    return pint_factor(found, text, unit)
+
+
+def pint_factor(found: str, text: str, unit: str) -> float:
+    """Return the factor from a unit as written to the SI unit wanted, by pint (``found`` is for the message).
+
+    >>> pint_factor("12 in", "in", "m")
+    0.0254
+    """
+    import pint  # noqa: PLC0415  # lazy: heavy
 
     unknown = f"{found!r} has an unknown unit {text!r}; allowed: {_allowed(unit)}"
     if not _UNIT_TEXT.fullmatch(text):

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 __all__ = ["SlavedBodies", "joint_motion", "slaved_bodies", "steer_axis", "steered_skeleton"]
 
 #: Loops whose matrix (of sines of angles, arms scaled to their mean) is closer to singular than this cannot move.
-_SINGULAR = 1e-9
+_SINGULAR = 1e-6
 
 
 @dataclass(frozen=True, eq=False)

@@ -53,7 +53,7 @@ def label_curves(axes: Axes, curves: list[Curve], vertical: list[float], size: f
     per_point = figure.dpi / 72
     taken: list[tuple[float, float, float, float]] = []
     for index, curve in enumerate(curves):
-        if not curve.label:
+        if not curve.label or len(points[index]) == 0:
             continue
         half = np.array([0.30 * size * len(curve.label), 0.62 * size]) * per_point
         centres = points[index] if curve.on_points else _candidates(points[index], half, per_point)

@@ -63,8 +63,9 @@ def figure_bytes(figure: Figure, kind: str) -> bytes:
     metadata: Any = {"svg": {"Date": None, "Creator": "singletrack"}, "png": {"Software": "singletrack"}}[kind]
     content = io.BytesIO()
     with style():
-        if figure.get_layout_engine() is not None:
-            figure.draw_without_rendering()
-            figure.set_layout_engine("none")  # laid out once, the same for every kind of file
+        engine = figure.get_layout_engine()
+        if engine is not None:
+            engine.execute(figure)
+            figure.set_layout_engine(None)  # laid out once, the same for every kind of file
         figure.savefig(content, format=kind, metadata=metadata)
     return content.getvalue()

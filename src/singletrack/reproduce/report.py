@@ -14,6 +14,7 @@ from singletrack.present.tables import critical_speeds_text
 if TYPE_CHECKING:
     from singletrack.reproduce.cases import Case
     from singletrack.reproduce.claims import Claim
+    from singletrack.reproduce.engines import Agreement
 
 __all__ = ["Picture", "html_report", "markdown_report"]
 
@@ -24,6 +25,12 @@ _INTRODUCTION = (
     "Each printed number and each sentence about eigenvalues stands beside what was computed."
 )
 _CLAIM_HEADER = ("section", "the paper says", "computed", "verdict", "note")
+_ENGINES = (
+    "Each matrix is derived a second time, by the multibody engine: full nonlinear equations with every joint of the "
+    "rider, hands and wheels as constraints, linearised exactly. Largest difference of an entry, relative to the "
+    "matrix' largest entry; and the force of each hand on its grip at rest, which only the engine knows."
+)
+_AGREEMENT_HEADER = ("case", "M", "C1", "K0", "K2", "hand force, forward and down")
 
 
 @dataclass(frozen=True)
@@ -38,6 +45,12 @@ class Picture:
 
 def _verdict(claim: Claim) -> str:
     return "holds" if claim.holds else "does not hold"
+
+
+def _agreement_cells(agreement: Agreement) -> list[str]:
+    force = agreement.hand_force
+    hands = "hands free" if force is None else f"{force[0]:.1f} N, {force[1]:.1f} N"
+    return [agreement.name, *(f"{value:.0e}" for value in agreement.differences.values()), hands]
 
 
 def _summary(claims: list[Claim]) -> str:
@@ -57,13 +70,18 @@ def _matrix_rows(case: Case) -> list[tuple[str, list[list[str]]]]:
     ]
 
 
-def markdown_report(cases: dict[str, Case], claims: list[Claim], pictures: list[Picture]) -> str:
+def markdown_report(
+    cases: dict[str, Case], claims: list[Claim], agreements: list[Agreement], pictures: list[Picture]
+) -> str:
     """Return the report as Markdown; figures are linked, in ``figures/`` beside it."""
     lines = [f"# {_TITLE}", "", _INTRODUCTION, "", _made(), "", "## The paper and the computation", ""]
     lines += [_summary(claims), "", "| " + " | ".join(_CLAIM_HEADER) + " |", "|---" * len(_CLAIM_HEADER) + "|"]
     for claim in claims:
         cells = (claim.section, claim.says, claim.computed, f"**{_verdict(claim)}**", claim.note)
         lines.append("| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |")
+    lines += ["", "## Two derivations", "", _ENGINES, "", "| " + " | ".join(_AGREEMENT_HEADER) + " |"]
+    lines.append("|---" * len(_AGREEMENT_HEADER) + "|")
+    lines += ["| " + " | ".join(_agreement_cells(agreement)) + " |" for agreement in agreements]
     lines += ["", "## Figures", ""]
     for picture in pictures:
         lines += [f"![{picture.caption}](figures/{picture.name}.png)", "", picture.caption, ""]
@@ -91,7 +109,9 @@ pre { background: #f6f6f6; padding: .6rem; font-size: 13px; }
 """
 
 
-def html_report(cases: dict[str, Case], claims: list[Claim], pictures: list[Picture]) -> str:
+def html_report(
+    cases: dict[str, Case], claims: list[Claim], agreements: list[Agreement], pictures: list[Picture]
+) -> str:
     """Return the report as one HTML file with everything in it."""
     head = f'<meta charset="utf-8"><title>{_TITLE}</title><style>{_CSS}</style>'
     parts = [
@@ -99,6 +119,8 @@ def html_report(cases: dict[str, Case], claims: list[Claim], pictures: list[Pict
         f"<h1>{_TITLE}</h1>\n<p>{_INTRODUCTION}</p>\n<p>{_made()}</p>",
         f"<h2>The paper and the computation</h2>\n<p>{_summary(claims)}</p>",
         _html_claims(claims),
+        f"<h2>Two derivations</h2>\n<p>{_ENGINES}</p>",
+        _html_table(_AGREEMENT_HEADER, [[escape(cell) for cell in _agreement_cells(one)] for one in agreements]),
         "<h2>Figures</h2>",
         *(_html_figure(picture) for picture in pictures),
         '<h2>Matrices and critical speeds</h2>\n<div class="cases">',
@@ -109,13 +131,23 @@ def html_report(cases: dict[str, Case], claims: list[Claim], pictures: list[Pict
 
 
 def _html_claims(claims: list[Claim]) -> str:
-    head = "".join(f"<th>{escape(name)}</th>" for name in _CLAIM_HEADER)
     rows = [
-        f"<tr><td>{escape(claim.section)}</td><td>{escape(claim.says)}</td><td>{escape(claim.computed)}</td>"
-        f'<td class="{"holds" if claim.holds else "fails"}">{_verdict(claim)}</td><td>{escape(claim.note)}</td></tr>'
+        [
+            escape(claim.section),
+            escape(claim.says),
+            escape(claim.computed),
+            f'<span class="{"holds" if claim.holds else "fails"}">{_verdict(claim)}</span>',
+            escape(claim.note),
+        ]
         for claim in claims
     ]
-    return f"<table><tr>{head}</tr>\n" + "\n".join(rows) + "</table>"
+    return _html_table(_CLAIM_HEADER, rows)
+
+
+def _html_table(header: tuple[str, ...], rows: list[list[str]]) -> str:
+    head = "".join(f"<th>{escape(name)}</th>" for name in header)
+    body = "\n".join("<tr>" + "".join(f"<td>{cell}</td>" for cell in row) + "</tr>" for row in rows)
+    return f"<table><tr>{head}</tr>\n{body}</table>"
 
 
 def _html_figure(picture: Picture) -> str:

@@ -14,6 +14,7 @@ from singletrack.present.style import figure_bytes
 from singletrack.present.tables import eigenvalues_csv, write_csv
 from singletrack.reproduce.cases import Case, paper_cases
 from singletrack.reproduce.claims import Claim, check_claims
+from singletrack.reproduce.engines import compare_engines
 from singletrack.reproduce.report import Picture, html_report, markdown_report
 
 if TYPE_CHECKING:
@@ -56,9 +57,11 @@ def reproduce(output: Path) -> Path:
     with Progress(*columns, console=Console(stderr=True)) as progress:
         cases = paper_cases()
         jobs = list(_drawings(cases))
-        task = progress.add_task("matrices, eigenvalues, claims", total=len(jobs) + 2)
+        task = progress.add_task("matrices, eigenvalues, claims", total=len(jobs) + 3)
         claims = check_claims(cases)
         _write_tables(output, cases, claims)
+        progress.update(task, advance=1, description="multibody engine")
+        agreements = compare_engines(cases)
         progress.advance(task)
         pictures = []
         for picture, draw in jobs:
@@ -66,8 +69,8 @@ def reproduce(output: Path) -> Path:
             pictures.append(_drawn(output, picture, draw))
             progress.advance(task)
         progress.update(task, description="report")
-        write_whole(output / "report.md", markdown_report(cases, claims, pictures))
-        write_whole(output / "report.html", html_report(cases, claims, pictures))
+        write_whole(output / "report.md", markdown_report(cases, claims, agreements, pictures))
+        write_whole(output / "report.html", html_report(cases, claims, agreements, pictures))
         progress.update(task, advance=1, description="done")
     return output / "report.html"
 
