@@ -9,6 +9,8 @@ import functools
 import sys
 from typing import TYPE_CHECKING, Any, TypeAlias
 
+from singletrack.errors import InputError
+
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
@@ -21,6 +23,7 @@ __all__ = [
     "is_jax",
     "matvec",
     "namespace",
+    "require_double",
     "skew",
     "stack",
     "unit_vector",
@@ -50,6 +53,21 @@ def is_jax(*values: Array) -> bool:
     """Tell whether any of the values is a JAX array (or stands for one while JAX traces a function)."""
     jax = sys.modules.get("jax")
     return jax is not None and any(isinstance(value, jax.Array) for value in values)
+
+
+def require_double(value: Array) -> None:
+    """Raise InputError if a result is a JAX array of single precision: too coarse for stability, and easily overlooked.
+
+    Raises
+    ------
+    InputError
+        With what to type to make JAX compute in double precision.
+    """
+    if is_jax(value) and value.dtype.itemsize < (16 if value.dtype.kind == "c" else 8):
+        raise InputError(
+            f"JAX computes in {value.dtype}, must be double precision: put "
+            'jax.config.update("jax_enable_x64", True) at the start of the program'
+        )
 
 
 def is_concrete(value: Array) -> bool:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from singletrack.arrays import require_double
 from singletrack.errors import InputError, unknown_name
 from singletrack.faults import Fault, refuse_single
 from singletrack.linear.matrices import CoefficientMatrices
@@ -42,7 +43,8 @@ def coefficients(
     Raises
     ------
     InputError
-        For an unknown posture or shoulder, a bicycle without frame geometry, a rider without forward lean angle.
+        For an unknown posture or shoulder, a bicycle without frame geometry, a rider without forward lean angle;
+        for JAX arrays in single precision.
     PostureError
         If arms or legs do not reach, or the arms cannot follow the steer.
 
@@ -60,6 +62,7 @@ def coefficients(
     if posture not in POSTURES:
         raise InputError(unknown_name("posture", posture, POSTURES))
     bare = whipple_matrices(bicycle)
+    require_double(bare.M)
     faults = bicycle.faults()
     if rider is None:
         if posture != "rigid":

@@ -32,7 +32,9 @@ def _compile() -> Callable[..., None]:
     """Return ``quartic._blocks_into`` compiled, with all that it calls; kept on disk for the next process."""
     names = dict(vars(quartic))
     for name in _PARTS:
-        names[name] = _jit(FunctionType(getattr(quartic, name).__code__, names, name), inline="always")
+        original = getattr(quartic, name)
+        copy = FunctionType(original.__code__, names, name, original.__defaults__)
+        names[name] = _jit(copy, inline="always")
     kernel = FunctionType(quartic._blocks_into.__code__, names, "_blocks_into")  # noqa: SLF001
     compiled: Callable[..., None] = _jit(kernel, cache=True)
     return compiled

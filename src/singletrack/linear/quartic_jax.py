@@ -11,8 +11,8 @@ from typing import Any
 import jax
 import jax.numpy as jnp
 
-from singletrack.errors import InputError
-from singletrack.linear.quartic import factor, ordered_roots
+from singletrack.arrays import require_double
+from singletrack.linear.quartic import factor, horner, ordered_roots, refined
 
 __all__ = ["quartic_roots"]
 
@@ -28,30 +28,16 @@ def quartic_roots(b: Any, c: Any, d: Any, e: Any) -> Any:
         If JAX computes in single precision.
     """
     coefficients: Any = tuple(jnp.broadcast_arrays(*(jnp.asarray(a) for a in (b, c, d, e))))
-    if coefficients[0].dtype != jnp.float64:
-        raise InputError(
-            f"eigenvalues of {coefficients[0].dtype} JAX arrays: must be float64; put "
-            'jax.config.update("jax_enable_x64", True) at the start of the program'
-        )
+    require_double(coefficients[0])
     fixed = tuple(jax.lax.stop_gradient(a) for a in coefficients)
     p1, q1, p2, q2, good = factor(fixed[0], fixed[1], fixed[2], fixed[3], jnp.where, jnp.sqrt)
     parts = ordered_roots(p1, q1, p2, q2, jnp.where, jnp.sqrt)
     roots = jnp.stack(parts[:4], axis=-1) + 1j * jnp.stack(parts[4:], axis=-1)
     roots = jax.lax.stop_gradient(_iterate(roots, good, fixed))
-    value, _, _ = _horner(roots, coefficients)
-    _, slope, _ = _horner(roots, fixed)
+    value, _, _ = horner(roots, coefficients)
+    _, slope, _ = horner(roots, fixed)
     # A step of Newton's method whose length is zero, but not its derivative.
     return roots - (value - jax.lax.stop_gradient(value)) / slope
-
-
-def _horner(s: Any, coefficients: tuple[Any, ...]) -> tuple[Any, Any, Any]:
-    """Return p(s), p'(s) and the sum of the sizes of p's terms, for s (..., 4) and coefficients (...)."""
-    value, slope, size = jnp.ones_like(s), jnp.zeros_like(s), jnp.ones_like(s.real)
-    for a in coefficients:
-        slope = slope * s + value
-        value = value * s + a[..., None]
-        size = size * jnp.abs(s) + jnp.abs(a[..., None])
-    return value, slope, size
 
 
 def _iterate(roots: Any, good: Any, coefficients: tuple[Any, ...]) -> Any:
@@ -68,12 +54,7 @@ def _iterate(roots: Any, good: Any, coefficients: tuple[Any, ...]) -> Any:
 
     def step(state: tuple[Any, Any, Any]) -> tuple[Any, Any, Any]:
         count, s, left = state
-        value, slope, size = _horner(s, coefficients)
-        done = jnp.abs(value) <= 4e-16 * size
-        newton = value / jnp.where(slope == 0, 1e-300, slope)
-        gaps = s[..., :, None] - s[..., None, :]
-        pull = jnp.sum(jnp.where(gaps == 0, 0.0, 1.0 / jnp.where(gaps == 0, 1.0, gaps)), axis=-1)
-        moved = s - newton / (1.0 - newton * pull)
+        moved, done = refined(s, coefficients, jnp.where)
         s = jnp.where(left[..., None] & ~done & jnp.isfinite(moved), moved, s)
         return count + 1, s, left & ~jnp.all(done, axis=-1)
 

@@ -41,8 +41,8 @@ def parse_variation(name: str, found: Any, place: str, *, with_rider: bool) -> V
 
     Examples
     --------
-    >>> parse_variation("trail", {"from": "20 mm", "to": "60 mm", "count": 3}, "study.toml", with_rider=False).numbers
-    (0.02, 0.04, 0.06)
+    >>> parse_variation("trail", {"from": "20 mm", "to": "60 mm", "count": 2}, "study.toml", with_rider=False).numbers
+    (0.02, 0.06)
     """
     owner, unit = _owner(name, place, with_rider=with_rider)
     if isinstance(found, list) and found:
