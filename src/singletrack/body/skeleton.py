@@ -175,8 +175,8 @@ def _two_link_joint(
     start: Array, end: Array, first: Array, second: Array, bend: float, limb: str
 ) -> tuple[Array, list[Fault]]:
     """Return the joint (..., 3) of a limb of two links in the x-z plane, bent to one side, and where it fails."""
-    xp, (first, second) = as_arrays(first, second)
-    dx, dz = end[..., 0] - start[..., 0], end[..., 2] - start[..., 2]
+    across = end - start
+    xp, (first, second, dx, dz) = as_arrays(first, second, across[..., 0], across[..., 2])
     distance = xp.sqrt(dx**2 + dz**2)
     # The joint divides the distance at "along" and lies "aside" of it; no angles, so that it is cheap and analytic.
     along = (distance**2 + first**2 - second**2) / (2 * distance)
