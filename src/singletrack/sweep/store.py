@@ -103,6 +103,7 @@ class Store:
                 f"{self.partial}: another sweep is writing here; wait for it or choose another output"
             ) from None
         self._journal = journal
+        journal.write("\n")  # ends a line that was cut short when its writer was killed
         lines = _journal_lines(self.partial / "journal.jsonl")
         if not lines:
             self._create()
