@@ -176,7 +176,7 @@ def test_a_cluster_that_loses_a_worker(study: Study, whole: Any, tmp_path: Path)
     from distributed import LocalCluster
 
     killed: list[int] = []
-    with LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None, silence_logs=50) as cluster:
+    with LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=":0", silence_logs=50) as cluster:
 
         def progress(done: int, _resumed: int) -> None:
             if done > 700 and not killed:
