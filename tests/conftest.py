@@ -31,6 +31,15 @@ def meijaard() -> dict[str, Any]:
     return json.loads((HERE / "reference" / "meijaard2007.json").read_text())
 
 
+@pytest.fixture(scope="session")
+def shared_data() -> Path:
+    """Return the folder of measured files of others, read in place; they do not come with the package."""
+    folder = HERE.parent.parent / "shared" / "data" / "bicycleparameters"
+    if not folder.is_dir():
+        pytest.skip("measured files of others are not here: ../shared/data/bicycleparameters does not exist")
+    return folder
+
+
 @pytest.fixture(params=COMBINATIONS, ids=lambda pair: f"{pair[0]}-{pair[1] or 'alone'}")
 def combination(request: pytest.FixtureRequest) -> CoefficientMatrices:
     """Return the model of each shipped combination."""

@@ -42,8 +42,9 @@ def nearest(name: str, known: Iterable[str]) -> str:
     >>> nearest("xyz", ["trail", "wheel_base"])
     ''
     """
-    close = difflib.get_close_matches(name.lower(), list(known), n=1, cutoff=0.6)
-    return f"; did you mean {close[0]}?" if close else ""
+    by_lower = {other.lower(): other for other in known}
+    close = difflib.get_close_matches(name.lower(), by_lower, n=1, cutoff=0.6)
+    return f"; did you mean {by_lower[close[0]]}?" if close else ""
 
 
 def unknown_name(what: str, name: str, known: Iterable[str]) -> str:

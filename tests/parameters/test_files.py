@@ -123,5 +123,5 @@ def test_template_becomes_a_file_when_filled_in(write, kind):
 
 
 def test_template_unfilled_is_refused_kindly(write):
-    with pytest.raises(InputError, match=r"line \d+: wheel_base = ' m' is not a number"):
+    with pytest.raises(InputError, match=r"line \d+: wheel_base = '\? m' is not a number"):
         load_bicycle(write(template("bicycle")))

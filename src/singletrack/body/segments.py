@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from singletrack.arrays import Array, as_arrays, unit_vector
 from singletrack.body.rigid import Body
-from singletrack.body.solids import cylinder_inertia, prism_inertia, sphere_inertia
+from singletrack.body.solids import cylinder_inertia, gyration_inertia, prism_inertia, sphere_inertia
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -87,7 +87,25 @@ def rider_segments(rider: Rider, points: Skeleton) -> dict[str, Segment]:
             getattr(rider, f"{limb}_length"),
             [points[end] for end in ends],
         )
-    return segments
+    return {name: _reshaped(segment, name, rider, unit_vector(shoulder - hip)) for name, segment in segments.items()}
+
+
+def _reshaped(segment: Segment, name: str, rider: Rider, up_torso: Array) -> Segment:
+    """Return a segment with its mass spread as the rider's shapes say, if they do."""
+    kind = name.removeprefix("right_").removeprefix("left_")
+    shape = rider.shapes.get(kind)
+    if shape is None:
+        return segment
+    if kind == "head":
+        length, axis = segment.radius, up_torso
+        start = segment.centre - length[..., None] * axis
+    else:
+        axis, start = unit_vector(segment.end - segment.start), segment.start
+        _, (length,) = as_arrays(getattr(rider, f"{kind}_length"))
+    radii = (shape.gyration_along * length, shape.gyration_sideways * length, shape.gyration_across * length)
+    centre = start + (shape.centre * length)[..., None] * axis
+    inertia = gyration_inertia(segment.mass, *radii, axis)
+    return Segment(segment.mass, centre, inertia, segment.start, segment.end, segment.radius)
 
 
 # Skeleton points at the start and end of each limb, right and left.

@@ -13,7 +13,7 @@ from singletrack.faults import Fault, refuse_single
 if TYPE_CHECKING:
     from singletrack.parameters import Bicycle, Rider
 
-__all__ = ["POINT_NAMES", "Skeleton", "skeleton"]
+__all__ = ["POINT_NAMES", "Skeleton", "frame_points", "skeleton"]
 
 #: What the points 1 to 31 are. Right is positive y; the table's own comment calls points 21 and 23 left.
 POINT_NAMES = (
@@ -100,14 +100,14 @@ def skeleton(bicycle: Bicycle, rider: Rider) -> Skeleton:
             f"{bicycle.name or 'bicycle'}: cannot seat a rider without frame geometry; missing: {', '.join(missing)}"
         )
     rider = rider.on(bicycle)
-    frame = _frame_points(bicycle)
+    frame = frame_points(bicycle)
     body, faults = _rider_points(frame, bicycle, rider)
     points = frame | body
     where = " on ".join(name for name in (rider.name, bicycle.name) if name)
     return Skeleton(stack([points[number] for number in range(1, 32)], -2), refuse_single(faults, where))
 
 
-def _frame_points(bicycle: Bicycle) -> dict[int, Array]:
+def frame_points(bicycle: Bicycle) -> dict[int, Array]:
     """Return points 1 to 12 and 16: wheels, frame, stem top."""
     values = {name: value for name, value in bicycle.values().items() if "mass" not in name and "inertia" not in name}
     xp, arrays = as_arrays(*values.values())

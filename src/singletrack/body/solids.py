@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from singletrack.arrays import Array, as_arrays, vector
 
-__all__ = ["cylinder_inertia", "prism_inertia", "sphere_inertia"]
+__all__ = ["cylinder_inertia", "gyration_inertia", "prism_inertia", "sphere_inertia"]
 
 
 def _about_axis(axis: Array, along: Array, across: Array) -> Array:
@@ -59,9 +59,34 @@ def prism_inertia(mass: Array, length: Array, width: Array, thickness: Array, ax
     >>> np.diag(prism_inertia(12.0, 3.0, 2.0, 1.0, np.array([0.0, 0.0, -1.0]))).tolist()
     [13.0, 10.0, 5.0]
     """
+    along, sideways = mass * (width**2 + thickness**2) / 12, mass * (length**2 + thickness**2) / 12
+    return _about_three_axes(axis, along, sideways, mass * (length**2 + width**2) / 12)
+
+
+def gyration_inertia(mass: Array, along: Array, sideways: Array, across: Array, axis: Array) -> Array:
+    """Return the inertia (..., 3, 3) in kg m^2 of a body with given radii of gyration about its centre.
+
+    Parameters
+    ----------
+    mass, along, sideways, across : array, shape (...)
+        In kg; radii in m about ``axis``, about y, about the normal to both.
+    axis : array, shape (..., 3)
+        Unit vector in the x-z plane.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> np.diag(gyration_inertia(2.0, 1.0, 2.0, 2.0, np.array([0.0, 0.0, 1.0]))).tolist()
+    [8.0, 8.0, 2.0]
+    """
+    return _about_three_axes(axis, mass * along**2, mass * sideways**2, mass * across**2)
+
+
+def _about_three_axes(axis: Array, along: Array, sideways: Array, across: Array) -> Array:
+    """Return the tensor with given moments about a unit axis in the x-z plane, y, and the normal to both."""
     normal = vector(-axis[..., 2], 0.0 * axis[..., 1], axis[..., 0])
     return (
-        _about_axis(axis, mass * (width**2 + thickness**2) / 12, 0.0)
-        + _about_axis(normal, mass * (length**2 + width**2) / 12, 0.0)
-        + _about_axis(vector(0.0, 1.0, 0.0), mass * (length**2 + thickness**2) / 12, 0.0)
+        _about_axis(axis, along, 0.0)
+        + _about_axis(normal, across, 0.0)
+        + _about_axis(vector(0.0, 1.0, 0.0), sideways, 0.0)
     )

@@ -128,6 +128,6 @@ def eigenmotions(model: CoefficientMatrices, speeds: Array, roots: np.ndarray) -
     row = np.where((size[..., 0] >= size[..., 1])[..., None], pencil[..., 0, :], pencil[..., 1, :])
     lean, steer = row[..., 1], -row[..., 0]
     pure_steer = np.abs(lean) <= np.finfo(float).tiny
-    with np.errstate(invalid="ignore"):  # faulty designs are NaN
+    with np.errstate(invalid="ignore"):  # faulty designs of a batch are NaN throughout
         ratio = np.where(pure_steer, 1.0, steer / np.where(pure_steer, 1.0, lean))
     return np.stack([np.where(pure_steer, 0.0, 1.0 + 0j), ratio], axis=-1)

@@ -5,7 +5,7 @@ y = q₁ + q₂ is a root of the resolvent cubic. Of its real roots that give re
 taken; Halley's method finds it from outside, and Newton's method on the four equations for p₁, q₁, p₂, q₂ removes
 what rounding and cancellation have done so far. Then the product of the factors is compared with the quartic: the few
 quartics that it does not reproduce to rounding (a pair of roots near another pair, three roots nearly equal, numbers
-out of range) are solved again with LAPACK's help. docs/eigenvalues.md has the error analysis.
+out of range) are solved again (:mod:`singletrack.linear.quartic_hard`). docs/eigenvalues.md has the error analysis.
 
 The algorithm is written once, for NumPy arrays, JAX arrays and (compiled by numba) single numbers: that is why its
 functions take ``where`` and ``sqrt`` as arguments, and say ``== False`` for "not".
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
     from singletrack.arrays import Array
 
-__all__ = ["CHUNK", "factor", "horner", "ordered_roots", "quartic_roots", "refined", "solve_into", "use_compiled"]
+__all__ = ["CHUNK", "factor", "ordered_roots", "quartic_roots", "solve_into", "use_compiled"]
 
 #: Relative difference between the product of the factors and the quartic that rounding explains.
 _ROUNDING = 2e-15
@@ -244,8 +244,10 @@ def solve_into(roots: np.ndarray, b: np.ndarray, c: np.ndarray, d: np.ndarray, e
     else:
         _Kernel.compiled(roots, good, b, c, d, e)
     if not good.all():
+        from singletrack.linear.quartic_hard import solve_again  # noqa: PLC0415  # which builds on this module
+
         bad = ~good
-        roots[bad] = _solve_again(b[bad], c[bad], d[bad], e[bad])
+        roots[bad] = solve_again(b[bad], c[bad], d[bad], e[bad])
 
 
 def _roots_into(
@@ -289,56 +291,3 @@ def _where(condition: bool, yes: float, no: float) -> float:
 
 def _sqrt(x: float) -> float:
     return math.sqrt(x)
-
-
-def _solve_again(b: np.ndarray, c: np.ndarray, d: np.ndarray, e: np.ndarray) -> np.ndarray:
-    """Return the roots of the few quartics that :func:`factor` has not factored to rounding.
-
-    Roots of very different size only need more of Newton's steps; for those that (nearly) meet, LAPACK finds the
-    eigenvalues of the companion matrix, and these are refined until each is exact for coefficients changed by rounding.
-    """
-    with np.errstate(all="ignore"):
-        p1, q1, p2, q2, good = factor(b, c, d, e, np.where, np.sqrt, newton_steps=12)
-        parts = ordered_roots(p1, q1, p2, q2, np.where, np.sqrt)
-    roots: np.ndarray = np.stack(parts[:4], axis=-1) + 1j * np.stack(parts[4:], axis=-1)
-    if not good.all():
-        bad = ~good
-        roots[bad] = _solve_by_lapack(*(a[bad] for a in (b, c, d, e)))
-    return roots
-
-
-def _solve_by_lapack(b: np.ndarray, c: np.ndarray, d: np.ndarray, e: np.ndarray) -> np.ndarray:
-    finite = np.isfinite(b) & np.isfinite(c) & np.isfinite(d) & np.isfinite(e)
-    monic = np.where(finite[:, None], np.stack([b, c, d, e], axis=-1), 0.0)
-    companion = np.zeros((len(b), 4, 4))
-    companion[:, range(1, 4), range(3)] = 1.0
-    companion[:, 0, :] = -monic
-    roots = np.sort_complex(np.linalg.eigvals(companion).astype(complex))
-    # Each root's conjugate among the four: refined together, they stay conjugates.
-    partner = np.argmin(np.abs(roots[:, :, None] - roots[:, None, :].conj()), axis=-1)
-    upper, real = roots.imag > 0, roots.imag == 0
-    with np.errstate(all="ignore"):
-        for _ in range(20):
-            moved, done = refined(roots, tuple(monic.T), np.where)
-            moved = np.where(real, moved.real, np.where(upper, moved, np.take_along_axis(moved, partner, 1).conj()))
-            roots = np.where(np.isfinite(moved) & ~done, moved, roots)
-    return np.where(finite[:, None], np.sort_complex(roots), np.nan)
-
-
-def refined(s: Array, coefficients: tuple[Array, ...], where: Callable[..., Array]) -> tuple[Array, Array]:
-    """Return roots (..., 4) after one iteration of Ehrlich and Aberth, and which of them were exact to rounding."""
-    value, slope, size = horner(s, coefficients)
-    newton = value / where(slope == 0, 1e-300, slope)
-    gaps = s[..., :, None] - s[..., None, :]
-    pull = where(gaps == 0, 0.0, 1.0 / where(gaps == 0, 1.0, gaps)).sum(axis=-1)
-    return s - newton / (1.0 - newton * pull), abs(value) <= 4e-16 * size
-
-
-def horner(s: Array, coefficients: tuple[Array, ...]) -> tuple[Array, Array, Array]:
-    """Return p(s), p'(s) and the sum of the sizes of p's terms, for s (..., 4) and coefficients b to e (...)."""
-    value, slope, size = 1.0 + 0.0 * s, 0.0 * s, 1.0 + 0.0 * abs(s)
-    for a in coefficients:
-        slope = slope * s + value
-        value = value * s + a[..., None]
-        size = size * abs(s) + abs(a[..., None])
-    return value, slope, size

@@ -12,7 +12,8 @@ import jax
 import jax.numpy as jnp
 
 from singletrack.arrays import require_double
-from singletrack.linear.quartic import factor, horner, ordered_roots, refined
+from singletrack.linear.quartic import factor, ordered_roots
+from singletrack.linear.quartic_hard import horner, refined
 
 __all__ = ["quartic_roots"]
 

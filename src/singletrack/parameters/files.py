@@ -13,6 +13,7 @@ from singletrack.errors import InputError, SingletrackError, unknown_name
 from singletrack.parameters.bicycle import Bicycle
 from singletrack.parameters.record import Record
 from singletrack.parameters.rider import Rider
+from singletrack.parameters.shapes import segment_shape
 from singletrack.parameters.units import parse_quantity
 
 if TYPE_CHECKING:
@@ -24,6 +25,7 @@ R = TypeVar("R", bound=Record)
 
 _LARGEST_FILE = 1_000_000
 _HEADER = ("kind", "name", "description", "source", "parameters")
+_TABLES = {"bicycle": ("extras",), "rider": ("segments",)}
 
 
 def shipped(kind: str) -> dict[str, Traversable]:
@@ -49,7 +51,8 @@ def load_bicycle(name_or_path: str | Path) -> Bicycle:
     Parameters
     ----------
     name_or_path : str or path
-        A shipped name (``benchmark``, ``stratos``, ``browser``) or a TOML file.
+        A shipped name (``benchmark``, ``stratos``, ``browser``) or a file: TOML, a parameter text file or raw
+        measurements of BicycleParameters, one of its YAML parameter sets.
 
     Raises
     ------
@@ -65,7 +68,9 @@ def load_bicycle(name_or_path: str | Path) -> Bicycle:
 
 
 def load_rider(name_or_path: str | Path) -> Rider:
-    """Load a rider: a shipped name (``rider-a``) or a TOML file; errors as in :func:`load_bicycle`.
+    """Load a rider: a shipped name (``rider-a``), a TOML file, or Yeadon's 95 measurements.
+
+    Errors as in :func:`load_bicycle`. Yeadon's measurements need the optional package ``yeadon``.
 
     Examples
     --------
@@ -83,17 +88,22 @@ def load_any(name_or_path: str | Path) -> Bicycle | Rider:
     """
     if str(name_or_path) in shipped("rider"):
         return load_rider(name_or_path)
+    if str(name_or_path) in shipped("bicycle"):
+        return load_bicycle(name_or_path)
     path = Path(name_or_path)
-    if str(name_or_path) not in shipped("bicycle") and path.is_file():
-        try:
-            kind = tomllib.loads(read_text(path)).get("kind", "bicycle")
-        except tomllib.TOMLDecodeError:
-            kind = "bicycle"  # which then says what is wrong with the file
-        return load_rider(path) if kind == "rider" else load_bicycle(path)
-    if str(name_or_path) not in shipped("bicycle"):
+    if not _is_there(path):
         known = [*shipped("bicycle"), *shipped("rider")]
         raise InputError(f"{unknown_name('name', str(name_or_path)[:200], known)}, and there is no such file")
-    return load_bicycle(name_or_path)
+    from singletrack.parameters.formats.reading import is_rider  # noqa: PLC0415  # lazy: seldom needed
+
+    return load_rider(path) if is_rider(read_text(path), str(path)) else load_bicycle(path)
+
+
+def _is_there(path: Path) -> bool:
+    try:
+        return path.exists()
+    except (OSError, ValueError):  # a name too long, or with a NUL
+        return False
 
 
 def _load(cls: type[R], name_or_path: str | Path) -> R:
@@ -101,13 +111,11 @@ def _load(cls: type[R], name_or_path: str | Path) -> R:
     if isinstance(name_or_path, str) and name_or_path in known:
         return parse_record(cls, known[name_or_path].read_text(encoding="utf-8"), name_or_path)
     path = Path(name_or_path)
-    try:
-        exists = path.exists()
-    except (OSError, ValueError):  # a name too long, or with a NUL
-        exists = False
-    if not exists:
+    if not _is_there(path):
         raise InputError(f"{unknown_name(cls.kind, str(name_or_path)[:200], known)}, and there is no such file")
-    return parse_record(cls, read_text(path), str(path))
+    from singletrack.parameters.formats.reading import read_record  # noqa: PLC0415  # lazy: seldom needed
+
+    return read_record(cls, read_text(path), str(path))
 
 
 def read_text(path: Path) -> str:
@@ -153,10 +161,17 @@ def parse_record(cls: type[R], text: str, where: str) -> R:
     """
     try:
         document = tomllib.loads(text)
-    except (tomllib.TOMLDecodeError, RecursionError) as error:
-        raise InputError(f"{where}: is not valid TOML: {error or 'nested too deeply'}") from None
+    except tomllib.TOMLDecodeError as error:
+        raise InputError(f"{where}: is not valid TOML: {error}") from None
+    except RecursionError:
+        raise InputError(f"{where}: is not valid TOML: nested too deeply") from None
+    except ValueError:  # Python's limit on the digits of whole numbers
+        longest = max(re.finditer(r"\d+", text), key=lambda found: len(found[0]))
+        line = text.count("\n", 0, longest.start()) + 1
+        raise InputError(f"{where}, line {line}: found a number of {len(longest[0])} digits, must be shorter") from None
     header = _checked_header(cls, document, where, text)
     fields, deviations = _quantities(cls, header.pop("parameters"), where, text)
+    fields |= _tables(cls, document, where, text)
     missing = [name for name, p in cls.descriptions().items() if not p.optional and name not in fields]
     if missing:
         raise InputError(f"{where}: [parameters] lacks {', '.join(missing)}")
@@ -169,10 +184,11 @@ def parse_record(cls: type[R], text: str, where: str) -> R:
 def _checked_header(cls: type[R], document: dict[str, Any], where: str, text: str) -> dict[str, Any]:
     if not document:
         raise InputError(f"{where}: is empty; `singletrack template {cls.kind}` prints a file to fill in")
+    allowed = (*_HEADER, *_TABLES.get(cls.kind, ()))
     for name in document:
-        if name not in _HEADER:
+        if name not in allowed:
             place = "; parameters go under [parameters]" if name in cls.descriptions() else ""
-            raise InputError(f"{_place(where, text, name)}: {unknown_name('entry', name, _HEADER)}{place}")
+            raise InputError(f"{_place(where, text, name)}: {unknown_name('entry', name, allowed)}{place}")
     if document.get("kind", cls.kind) != cls.kind:
         raise InputError(f"{_place(where, text, 'kind')}: is a {document['kind']!r} file, must be a {cls.kind}")
     if not isinstance(document.get("parameters"), dict):
@@ -200,8 +216,13 @@ def _quantities(
             raise InputError(f"{place}: {unknown_name(f'{cls.kind} parameter', name, descriptions)}")
         try:
             if cls is Rider and name == "forward_lean_angle" and isinstance(found, dict):
-                angles = {bicycle: parse_quantity(angle, "rad").value for bicycle, angle in found.items()}
-                fields["forward_lean_angles"] = angles
+                angles = {bicycle: parse_quantity(angle, "rad") for bicycle, angle in found.items()}
+                fields["forward_lean_angles"] = {bicycle: angle.value for bicycle, angle in angles.items()}
+                deviations |= {
+                    f"forward_lean_angle on {bicycle}": angle.deviation
+                    for bicycle, angle in angles.items()
+                    if angle.deviation is not None
+                }
                 continue
             quantity = parse_quantity(found, descriptions[name].unit)
         except InputError as error:
@@ -210,6 +231,23 @@ def _quantities(
         if quantity.deviation is not None:
             deviations[name] = quantity.deviation
     return fields, deviations
+
+
+def _tables(cls: type[R], document: dict[str, Any], where: str, text: str) -> dict[str, Any]:
+    """Return what the tables besides [parameters] hold: a rider's segment shapes, numbers kept from other formats."""
+    fields: dict[str, Any] = {}
+    for table in _TABLES.get(cls.kind, ()):
+        found = document.get(table, {})
+        if not isinstance(found, dict):
+            raise InputError(f"{_place(where, text, table)}: {table} must be a table [{table}]")
+        try:
+            if table == "segments":
+                fields["shapes"] = {name: segment_shape(name, values) for name, values in found.items()}
+            else:
+                fields[table] = {name: parse_quantity(value, "").value for name, value in found.items()}
+        except InputError as error:
+            raise InputError(f"{_place(where, text, table)}: {error}") from None
+    return fields
 
 
 def _place(where: str, text: str, name: str) -> str:
@@ -222,7 +260,13 @@ def _place_of_fault(message: str, name: str, where: str, text: str) -> str:
     """Put file and line in the place of the record's name before a fault of a value."""
     reason = message.removeprefix(f"{name}: ")
     parameter = re.match(r"\w+", reason)
-    return f"{_place(where, text, parameter[0]) if parameter else where}: {reason}"
+    if parameter is None:
+        return f"{where}: {reason}"
+    place = _place(where, text, parameter[0])
+    if place == where:  # a fault of several values that share the beginning of their names
+        first = re.search(rf"\b{re.escape(parameter[0])}\w*(?=[\"']?\s*[=\].])", text)
+        place = where if first is None else _place(where, text, first[0])
+    return f"{place}: {reason}"
 
 
 def override(record: R, texts: dict[str, str], where: str = "--set") -> R:

@@ -82,6 +82,9 @@ class Record:
         Where the numbers come from.
     standard_deviations : mapping of str to float
         Measurement uncertainty of parameters, SI, where known.
+    extras : mapping of str to float
+        Numbers of a file in another format that are no parameters (such as the speed of a parameter set), kept so
+        that they can be written back.
     """
 
     kind: ClassVar[str] = "record"
@@ -90,6 +93,7 @@ class Record:
     description: str = ""
     source: str = ""
     standard_deviations: Mapping[str, Array] = field(default_factory=dict)
+    extras: Mapping[str, float] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "_standing", refuse_single(self.faults(), where=self.name))
@@ -131,7 +135,11 @@ class Record:
 
     def faults(self) -> tuple[Fault, ...]:
         """Return what is wrong with the values, one fault per rule, with a mask over the batch."""
-        return tuple(self._faults())
+        import numpy as np  # noqa: PLC0415
+
+        # Numbers near the largest double overflow on the way to being refused.
+        with np.errstate(over="ignore", invalid="ignore"):
+            return tuple(self._faults())
 
     def _faults(self) -> Iterator[Fault]:
         for name, description in self.descriptions().items():

@@ -11,6 +11,7 @@ from singletrack.arrays import Array, is_concrete
 from singletrack.errors import InputError
 from singletrack.faults import Fault
 from singletrack.parameters.record import Record, parameter
+from singletrack.parameters.shapes import SegmentShape
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -28,6 +29,8 @@ class Rider(Record):
 
     ``forward_lean_angle`` belongs to a rider *on* a bicycle: give it outright, or for bicycles by name in
     ``forward_lean_angles``. Lengths and masses of arms and legs are those of one side. Every parameter may be an array.
+    ``shapes`` says how the mass of a segment is spread where that is known better than by cylinders, a sphere and a
+    prism of uniform density (such as from Yeadon's 95 measurements).
 
     Raises
     ------
@@ -70,6 +73,7 @@ class Rider(Record):
     upper_leg_mass_fraction: Array = parameter("", "mul/mBr", "one upper leg", "fraction", group=_MASS)
 
     forward_lean_angles: Mapping[str, Array] = field(default_factory=dict)
+    shapes: Mapping[str, SegmentShape] = field(default_factory=dict)
 
     def on(self, bicycle: Bicycle) -> Rider:
         """Return this rider with the forward lean angle on a bicycle.
@@ -88,7 +92,12 @@ class Rider(Record):
                 f"(known on: {known}); it must be given, between 0 and 90 deg: as forward_lean_angle in the rider's "
                 'file, or on the command line with --set "forward_lean_angle=70 deg"'
             )
-        return self.replace(forward_lean_angle=self.forward_lean_angles[bicycle.name])
+        deviations = dict(self.standard_deviations)
+        own = deviations.get(f"forward_lean_angle on {bicycle.name}")
+        if own is not None:
+            deviations["forward_lean_angle"] = own
+        angle = self.forward_lean_angles[bicycle.name]
+        return self.replace(forward_lean_angle=angle, standard_deviations=deviations)
 
     @property
     def torso_width(self) -> Array:

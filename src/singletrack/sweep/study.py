@@ -5,6 +5,7 @@ The file is checked in full before anything is computed; all that is wrong is sa
 
 from __future__ import annotations
 
+import dataclasses
 import hashlib
 import json
 import tomllib
@@ -104,7 +105,10 @@ class Study:
 
 
 def _record_values(record: Bicycle | Rider) -> dict[str, Any]:
-    return {"name": record.name, **{name: float(value) for name, value in record.values().items()}}
+    values: dict[str, Any] = {name: float(value) for name, value in record.values().items()}
+    if isinstance(record, Rider) and record.shapes:
+        values["shapes"] = {name: dataclasses.asdict(shape) for name, shape in record.shapes.items()}
+    return {"name": record.name, **values}
 
 
 def load_study(path: str | Path) -> Study:

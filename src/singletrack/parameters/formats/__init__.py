@@ -1,0 +1,1 @@
+"""Files: reading and writing our own format and those of other tools of this field."""
