@@ -5,7 +5,14 @@
 
 from __future__ import annotations
 
-from typing import Any, TypeAlias
+import functools
+import sys
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+from singletrack.errors import InputError
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
 
 __all__ = [
     "Array",
@@ -13,9 +20,12 @@ __all__ = [
     "cross",
     "dot",
     "is_concrete",
+    "is_jax",
     "matvec",
     "namespace",
+    "require_double",
     "skew",
+    "stack",
     "unit_vector",
     "vector",
 ]
@@ -23,20 +33,41 @@ __all__ = [
 Array: TypeAlias = Any
 
 
+@functools.cache
+def _numpy() -> Any:
+    import array_api_compat.numpy as xp  # noqa: PLC0415  # lazy: `import singletrack` stays light
+
+    return xp
+
+
 def namespace(*values: Array) -> Any:
-    """Return the array namespace of the values: that of their arrays, NumPy where all are plain numbers.
+    """Return the array namespace of the values: JAX if any is a JAX array, else NumPy.
 
     >>> namespace(1.0, 2.0).__name__
     'array_api_compat.numpy'
     """
-    import array_api_compat  # noqa: PLC0415  # lazy: `import singletrack` stays light
+    return sys.modules["jax.numpy"] if is_jax(*values) else _numpy()
 
-    arrays = [value for value in values if array_api_compat.is_array_api_obj(value)]
-    if arrays:
-        return array_api_compat.array_namespace(*arrays)
-    import array_api_compat.numpy as xp  # noqa: PLC0415
 
-    return xp
+def is_jax(*values: Array) -> bool:
+    """Tell whether any of the values is a JAX array (or stands for one while JAX traces a function)."""
+    jax = sys.modules.get("jax")
+    return jax is not None and any(isinstance(value, jax.Array) for value in values)
+
+
+def require_double(value: Array) -> None:
+    """Raise InputError if a result is a JAX array of single precision: too coarse for stability, and easily overlooked.
+
+    Raises
+    ------
+    InputError
+        With what to type to make JAX compute in double precision.
+    """
+    if is_jax(value) and value.dtype.itemsize < (16 if value.dtype.kind == "c" else 8):
+        raise InputError(
+            f"JAX computes in {value.dtype}, must be double precision: put "
+            'jax.config.update("jax_enable_x64", True) at the start of the program'
+        )
 
 
 def is_concrete(value: Array) -> bool:
@@ -48,10 +79,7 @@ def as_arrays(*values: Array) -> tuple[Any, tuple[Array, ...]]:
     """Return the namespace of the values and the values as arrays of floating-point (or complex) numbers."""
     xp = namespace(*values)
     arrays = (xp.asarray(value) for value in values)
-    return xp, tuple(
-        array if xp.isdtype(array.dtype, ("real floating", "complex floating")) else xp.astype(array, xp.float64)
-        for array in arrays
-    )
+    return xp, tuple(array if array.dtype.kind in "fc" else xp.astype(array, xp.float64) for array in arrays)
 
 
 def vector(*components: Array) -> Array:
@@ -60,8 +88,24 @@ def vector(*components: Array) -> Array:
     >>> vector(1.0, 0.0, 2.0).tolist()
     [1.0, 0.0, 2.0]
     """
-    xp, arrays = as_arrays(*components)
-    return xp.stack(xp.broadcast_arrays(*arrays), axis=-1)
+    return stack(components, -1)
+
+
+def stack(arrays: Sequence[Array], axis: int) -> Array:
+    """Stack arrays of any broadcastable shapes along a new axis, counted from the end (-1: last)."""
+    xp, same_kind = as_arrays(*arrays)
+    if is_jax(*same_kind):
+        return xp.stack(xp.broadcast_arrays(*same_kind), axis=axis)
+    # Written in place: a good deal faster than numpy.stack for the short axes used here.
+    shapes, dtypes = {array.shape for array in same_kind}, {array.dtype for array in same_kind}
+    shape = shapes.pop() if len(shapes) == 1 else xp.broadcast_shapes(*shapes)
+    place = len(shape) + 1 + axis
+    dtype = dtypes.pop() if len(dtypes) == 1 else xp.result_type(*dtypes)
+    result = xp.empty((*shape[:place], len(same_kind), *shape[place:]), dtype=dtype)
+    before = (slice(None),) * place
+    for k, array in enumerate(same_kind):
+        result[*before, k] = array
+    return result
 
 
 def cross(a: Array, b: Array) -> Array:
@@ -72,13 +116,14 @@ def cross(a: Array, b: Array) -> Array:
 
 
 def dot(a: Array, b: Array) -> Array:
-    """Return the inner product of vectors of shape (..., n) (no complex conjugate), with broadcasting."""
-    return namespace(a, b).sum(a * b, axis=-1)
+    """Return the inner product of vectors of shape (..., 3) (no complex conjugate), with broadcasting."""
+    return a[..., 0] * b[..., 0] + a[..., 1] * b[..., 1] + a[..., 2] * b[..., 2]
 
 
 def matvec(matrix: Array, vec: Array) -> Array:
-    """Return matrices (..., m, n) times vectors (..., n), with broadcasting."""
-    return namespace(matrix, vec).sum(matrix * vec[..., None, :], axis=-1)
+    """Return matrices (..., m, 3) times vectors (..., 3), with broadcasting."""
+    x, y, z = vec[..., 0:1], vec[..., 1:2], vec[..., 2:3]
+    return matrix[..., :, 0] * x + matrix[..., :, 1] * y + matrix[..., :, 2] * z
 
 
 def unit_vector(vec: Array) -> Array:

@@ -11,6 +11,8 @@ from singletrack.body.rigid import Body
 from singletrack.body.solids import cylinder_inertia, gyration_inertia, prism_inertia, sphere_inertia
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from singletrack.body.skeleton import Skeleton
     from singletrack.parameters import Rider
 
@@ -34,10 +36,12 @@ class Segment(Body):
     radius: Array
 
 
-def _cylinder(mass: Array, circumference: Array, length: Array, start: Array, end: Array) -> Segment:
+def _limbs(mass: Array, circumference: Array, length: Array, ends: Sequence[Array]) -> tuple[Segment, Segment]:
+    """Return the right and the left limb, from start to end each: mirror images, so parallel, of one inertia."""
     _, (mass, radius, length) = as_arrays(mass, circumference / (2 * pi), length)
-    inertia = cylinder_inertia(mass, radius, length, unit_vector(end - start))
-    return Segment(mass, (start + end) / 2, inertia, start, end, radius)
+    inertia = cylinder_inertia(mass, radius, length, unit_vector(ends[1] - ends[0]))
+    right, left = (Segment(mass, (start + end) / 2, inertia, start, end, radius) for start, end in (ends[:2], ends[2:]))
+    return right, left
 
 
 def rider_segments(rider: Rider, points: Skeleton) -> dict[str, Segment]:
@@ -77,14 +81,12 @@ def rider_segments(rider: Rider, points: Skeleton) -> dict[str, Segment]:
     torso = Segment(torso_mass, (hip + shoulder) / 2, torso_inertia, hip, shoulder, half_width)
     segments = {"head": head, "torso": torso}
     for limb, ends in _LIMB_ENDS.items():
-        for side, start, end in zip(("right", "left"), ends[::2], ends[1::2], strict=True):
-            segments[f"{side}_{limb}"] = _cylinder(
-                getattr(rider, f"{limb}_mass_fraction") * mass,
-                getattr(rider, f"{limb}_circumference"),
-                getattr(rider, f"{limb}_length"),
-                points[start],
-                points[end],
-            )
+        segments[f"right_{limb}"], segments[f"left_{limb}"] = _limbs(
+            getattr(rider, f"{limb}_mass_fraction") * mass,
+            getattr(rider, f"{limb}_circumference"),
+            getattr(rider, f"{limb}_length"),
+            [points[end] for end in ends],
+        )
     return {name: _reshaped(segment, name, rider, unit_vector(shoulder - hip)) for name, segment in segments.items()}
 
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from math import pi
 from typing import TYPE_CHECKING, Any
 
-from singletrack.arrays import Array, as_arrays, is_concrete, namespace, vector
+from singletrack.arrays import Array, as_arrays, is_concrete, namespace, stack, vector
 from singletrack.errors import InputError, PostureError
 from singletrack.faults import Fault, refuse_single
 
@@ -103,9 +103,8 @@ def skeleton(bicycle: Bicycle, rider: Rider) -> Skeleton:
     frame = frame_points(bicycle)
     body, faults = _rider_points(frame, bicycle, rider)
     points = frame | body
-    xp, arrays = as_arrays(*(points[number] for number in range(1, 32)))
     where = " on ".join(name for name in (rider.name, bicycle.name) if name)
-    return Skeleton(xp.stack(xp.broadcast_arrays(*arrays), axis=-2), refuse_single(faults, where))
+    return Skeleton(stack([points[number] for number in range(1, 32)], -2), refuse_single(faults, where))
 
 
 def frame_points(bicycle: Bicycle) -> dict[int, Array]:
@@ -176,21 +175,18 @@ def _two_link_joint(
     start: Array, end: Array, first: Array, second: Array, bend: float, limb: str
 ) -> tuple[Array, list[Fault]]:
     """Return the joint (..., 3) of a limb of two links in the x-z plane, bent to one side, and where it fails."""
-    xp, (first, second) = as_arrays(first, second)
-    dx, dz = end[..., 0] - start[..., 0], end[..., 2] - start[..., 2]
+    across = end - start
+    xp, (first, second, dx, dz) = as_arrays(first, second, across[..., 0], across[..., 2])
     distance = xp.sqrt(dx**2 + dz**2)
-    cosine = (distance**2 + first**2 - second**2) / (2 * distance * first)
-    outside = xp.abs(xp.real(cosine)) > 1 if is_concrete(cosine) else False
-    cosine = xp.where(outside, xp.nan, cosine)
-    # The link is the direction to the end, turned by acos(cosine): without inverse functions, so that complex steps
-    # (exact derivatives) pass through.
-    sine = bend * xp.sqrt(1 - cosine**2)
-    along, up = first * (dx * cosine + dz * sine) / distance, first * (dz * cosine - dx * sine) / distance
-    joint = start + vector(along, 0.0, up)
+    # The joint divides the distance at "along" and lies "aside" of it; no angles, so that it is cheap and analytic.
+    along = (distance**2 + first**2 - second**2) / (2 * distance)
+    aside = bend * _other_leg(xp, first, along)
+    joint = start + vector((along * dx + aside * dz) / distance, 0.0, (along * dz - aside * dx) / distance)
+    distance, first, second = (xp.real(length) for length in (distance, first, second))
     ends, lengths = _LIMBS[limb]
-    found = {"distance": distance, "reach": first + second, "least": abs(first - second)}
+    found = {"distance": distance, "reach": first + second, "least": xp.abs(first - second)}
     text = f"the {ends} distance is {{distance:.4f}} m, but the {limb} ({lengths}) "
-    too_far, too_near = distance > first + second, distance < abs(first - second)
+    too_far, too_near = distance > first + second, distance < xp.abs(first - second)
     return joint, [
         Fault(too_far, text + "reaches only {reach:.4f} m", found, PostureError),
         Fault(too_near, text + "cannot fold below {least:.4f} m", found, PostureError),

@@ -10,8 +10,8 @@ __all__ = ["cylinder_inertia", "gyration_inertia", "prism_inertia", "sphere_iner
 def _about_axis(axis: Array, along: Array, across: Array) -> Array:
     """Return the tensor with moment ``along`` about a unit axis (..., 3) and ``across`` about any normal to it."""
     xp, (axis, along, across) = as_arrays(axis, along, across)
-    dyad = axis[..., :, None] * axis[..., None, :]
-    return across[..., None, None] * xp.eye(3, dtype=axis.dtype) + (along - across)[..., None, None] * dyad
+    scaled = (along - across)[..., None] * axis
+    return scaled[..., :, None] * axis[..., None, :] + across[..., None, None] * xp.eye(3, dtype=axis.dtype)
 
 
 def cylinder_inertia(mass: Array, radius: Array, length: Array, axis: Array) -> Array:

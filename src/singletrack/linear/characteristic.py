@@ -11,9 +11,9 @@ With the mixed determinant D(A, B) = A11 B22 + B11 A22 - A12 B21 - B12 A21:
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
-from singletrack.arrays import Array, as_arrays, vector
+from singletrack.arrays import Array, as_arrays, stack, vector
 
 if TYPE_CHECKING:
     from singletrack.linear.matrices import CoefficientMatrices
@@ -51,20 +51,30 @@ class CharacteristicPolynomial:
             a0[..., 0] + (a0[..., 1] + a0[..., 2] * u) * u,
         )
 
+    def monic_at(self, speeds: Array) -> tuple[Array, Array, Array, Array]:
+        """Return b, c, d, e of s⁴ + b s³ + c s² + d s + e, each of shape (..., n), at speeds (n,) or (..., n)."""
+        _, (v,) = as_arrays(speeds)
+        u = v * v
+        b, c, d, e = (a / self.a4 for a in (self.a3, self.a2, self.a1, self.a0))
+        return (
+            b * v,
+            c[..., :1] + c[..., 1:] * u,
+            (d[..., :1] + d[..., 1:] * u) * v,
+            e[..., :1] + (e[..., 1:2] + e[..., 2:] * u) * u,
+        )
 
-def mixed_determinant(a: Array, b: Array) -> Array:
-    """Return D(A, B) of matrices (..., 2, 2): the part of det(A + B) that is linear in both."""
-    return (
-        a[..., 0, 0] * b[..., 1, 1]
-        + b[..., 0, 0] * a[..., 1, 1]
-        - a[..., 0, 1] * b[..., 1, 0]
-        - b[..., 0, 1] * a[..., 1, 0]
-    )
+    def rows(self, which: Any) -> CharacteristicPolynomial:
+        """Return the polynomials of some designs: an index or a mask of the first axis."""
+        return CharacteristicPolynomial(*(a[which] for a in (self.a4, self.a3, self.a2, self.a1, self.a0)))
 
+    def flat(self) -> tuple[CharacteristicPolynomial, tuple[int, ...]]:
+        """Return the polynomials with all designs on one axis, and the shape (...) of the batch, as NumPy arrays."""
+        import numpy as np  # noqa: PLC0415
 
-def determinant(a: Array) -> Array:
-    """Return the determinants of matrices (..., 2, 2)."""
-    return a[..., 0, 0] * a[..., 1, 1] - a[..., 0, 1] * a[..., 1, 0]
+        all_five = [np.asarray(a) for a in (self.a4, self.a3, self.a2, self.a1, self.a0)]
+        batch = np.broadcast_shapes(*(a.shape[:-1] for a in all_five))
+        one_axis = (np.broadcast_to(a, (*batch, a.shape[-1])).reshape(-1, a.shape[-1]) for a in all_five)
+        return CharacteristicPolynomial(*one_axis), batch
 
 
 def characteristic_polynomial(model: CoefficientMatrices) -> CharacteristicPolynomial:
@@ -79,12 +89,17 @@ def characteristic_polynomial(model: CoefficientMatrices) -> CharacteristicPolyn
     >>> abs(polynomial.at([0.0])[0, 1::2]).tolist()
     [0.0, 0.0]
     """
-    M, C1, K0, K2 = model.M, model.C1, model.K0, model.K2
-    _, (g,) = as_arrays(model.gravity)
+    xp, (g,) = as_arrays(model.gravity)
+    entries = stack(model.matrices, -3)  # (..., 4, 2, 2)
+    e11, e12, e21, e22 = (entries[..., i, j] for i in (0, 1) for j in (0, 1))
+    # For matrices A and B of the four, [A, B] = A11 B22 - A12 B21: det A = [A, A] and D(A, B) = [A, B] + [B, A].
+    products = e11[..., :, None] * e22[..., None, :] - e12[..., :, None] * e21[..., None, :]
+    mixed = products + xp.matrix_transpose(products)
+    M, C1, K0, K2 = range(4)
     return CharacteristicPolynomial(
-        determinant(M)[..., None],
-        mixed_determinant(M, C1)[..., None],
-        vector(g * mixed_determinant(M, K0), determinant(C1) + mixed_determinant(M, K2)),
-        vector(g * mixed_determinant(C1, K0), mixed_determinant(C1, K2)),
-        vector(g * g * determinant(K0), g * mixed_determinant(K0, K2), determinant(K2)),
+        products[..., M, M, None],
+        mixed[..., M, C1, None],
+        vector(g * mixed[..., M, K0], products[..., C1, C1] + mixed[..., M, K2]),
+        vector(g * mixed[..., C1, K0], mixed[..., C1, K2]),
+        vector(g * g * products[..., K0, K0], g * mixed[..., K0, K2], products[..., K2, K2]),
     )

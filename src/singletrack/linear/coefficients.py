@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from singletrack.arrays import require_double
 from singletrack.errors import InputError, unknown_name
-from singletrack.faults import Fault, refuse_single
 from singletrack.linear.matrices import CoefficientMatrices
 from singletrack.linear.slaved import slaved_matrices
 from singletrack.linear.whipple import whipple_matrices
@@ -42,7 +42,8 @@ def coefficients(
     Raises
     ------
     InputError
-        For an unknown posture or shoulder, a bicycle without frame geometry, a rider without forward lean angle.
+        For an unknown posture or shoulder, a bicycle without frame geometry, a rider without forward lean angle;
+        for JAX arrays in single precision.
     PostureError
         If arms or legs do not reach, or the arms cannot follow the steer.
 
@@ -60,17 +61,13 @@ def coefficients(
     if posture not in POSTURES:
         raise InputError(unknown_name("posture", posture, POSTURES))
     bare = whipple_matrices(bicycle)
-    faults = bicycle.faults()
+    require_double(bare.M)
     if rider is None:
         if posture != "rigid":
             raise InputError(f"posture {posture} needs a rider; allowed without one: rigid")
-        return CoefficientMatrices(*bare, bicycle.gravity, faults=_hit(faults))
+        return CoefficientMatrices(*bare, bicycle.gravity, faults=bicycle.standing_faults)
     bodies = slaved_bodies(seat(bicycle, rider, posture, shoulder), bicycle)
     added = slaved_matrices(bodies, bicycle)
+    faults = bicycle.standing_faults + rider.standing_faults + bodies.faults
     M, C1, K0, K2 = (one + other for one, other in zip(bare, added, strict=True))
-    return CoefficientMatrices(M, C1, K0, K2, bicycle.gravity, faults=_hit(faults + rider.faults() + bodies.faults))
-
-
-def _hit(faults: tuple[Fault, ...]) -> tuple[Fault, ...]:
-    """Return those faults that hit some design of a batch (single designs have been refused before)."""
-    return refuse_single(faults)
+    return CoefficientMatrices(M, C1, K0, K2, bicycle.gravity, faults=faults)

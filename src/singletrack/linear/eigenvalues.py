@@ -6,10 +6,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from singletrack.arrays import as_arrays, is_jax
 from singletrack.errors import InputError
+from singletrack.linear.characteristic import characteristic_polynomial
+from singletrack.linear.quartic import CHUNK, solve_into
 
 if TYPE_CHECKING:
     from singletrack.arrays import Array
+    from singletrack.linear.characteristic import CharacteristicPolynomial
     from singletrack.linear.matrices import CoefficientMatrices
 
 __all__ = ["checked_speeds", "eigenmotions", "eigenvalues"]
@@ -29,11 +33,16 @@ def checked_speeds(speeds: Array) -> np.ndarray:
     return np.atleast_1d(array).astype(float)
 
 
-def eigenvalues(model: CoefficientMatrices, speeds: Array) -> np.ndarray:
+def eigenvalues(model: CoefficientMatrices, speeds: Array) -> Array:
     """Return the eigenvalues (..., n, 4) in 1/s at speeds (n,) in m/s, sorted by real then imaginary part.
 
     Roots of a pair are exact conjugates, real roots have an imaginary part of exactly zero. Designs of a batch that
     are faulty get NaN.
+
+    Notes
+    -----
+    Roots of the characteristic quartic (:mod:`singletrack.linear.quartic`), whose coefficients are polynomials in the
+    speed. Matrices that are JAX arrays give JAX arrays, which can be differentiated (once) and compiled.
 
     Examples
     --------
@@ -41,22 +50,36 @@ def eigenvalues(model: CoefficientMatrices, speeds: Array) -> np.ndarray:
     >>> eigenvalues(coefficients(load_bicycle("benchmark")), 5.0).round(4)[0].tolist()
     [(-14.0784+0j), (-0.7753-4.4649j), (-0.7753+4.4649j), (-0.3229+0j)]
     """
+    if is_jax(model.M, model.C1, model.K0, model.K2, model.gravity, speeds):
+        from singletrack.linear.quartic_jax import quartic_roots  # noqa: PLC0415  # lazy: optional
+
+        return quartic_roots(*characteristic_polynomial(model).monic_at(_one_axis(speeds)))
     v = checked_speeds(speeds)
-    M = np.asarray(model.M)[..., None, :, :]
-    right = np.concatenate(
-        np.broadcast_arrays(
-            _per_speed(model, v)[1],
-            _per_speed(model, v)[0],
-        ),
-        axis=-1,
-    )
-    lower = -np.linalg.solve(np.broadcast_to(M, (*right.shape[:-1], 2)), right)
-    system = np.zeros((*lower.shape[:-2], 4, 4))
-    system[..., 0, 2] = system[..., 1, 3] = 1.0
-    system[..., 2:, :] = lower
-    finite = np.all(np.isfinite(system), axis=(-2, -1))[..., None]
-    roots = np.linalg.eigvals(np.where(finite[..., None], system, 0.0)).astype(complex)
-    return np.where(finite, np.sort_complex(roots), np.nan)
+    with np.errstate(all="ignore"):  # numbers out of range give NaN
+        polynomials, batch = characteristic_polynomial(model).flat()
+        roots = _roots_at(polynomials, v).reshape(*batch, len(v), 4)
+    if model.faults:
+        roots[~np.broadcast_to(model.valid, batch)] = np.nan
+    return roots
+
+
+def _one_axis(speeds: Array) -> Array:
+    xp, (v,) = as_arrays(speeds)
+    return xp.reshape(v, (-1,))
+
+
+def _roots_at(polynomials: CharacteristicPolynomial, v: np.ndarray) -> np.ndarray:
+    """Return the roots (m, n, 4) of m polynomials at n speeds, treated in pieces that stay in the cache."""
+    designs, n = len(polynomials.a4), max(len(v), 1)
+    roots = np.empty((designs, len(v), 4), dtype=complex)
+    step = max(1, CHUNK // n)
+    for start in range(0, designs, step):
+        rows = slice(start, start + step)
+        some = polynomials.rows(rows)
+        for first in range(0, len(v), CHUNK):
+            columns = slice(first, first + CHUNK)
+            solve_into(roots[rows, columns].reshape(-1, 4), *(a.ravel() for a in some.monic_at(v[columns])))
+    return roots
 
 
 def _per_speed(model: CoefficientMatrices, v: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -48,6 +48,11 @@ class CoefficientMatrices:
     faults: tuple[Fault, ...] = ()
 
     @property
+    def matrices(self) -> tuple[Array, Array, Array, Array]:
+        """M, C1, K0 and K2."""
+        return self.M, self.C1, self.K0, self.K2
+
+    @property
     def shape(self) -> tuple[int, ...]:
         """Shape (...) of the batch of designs."""
         return tuple(self.M.shape[:-2])

@@ -20,7 +20,7 @@ import numpy as np
 if TYPE_CHECKING:
     from singletrack.linear.characteristic import CharacteristicPolynomial
 
-__all__ = ["Meetings", "find_meetings", "meeting_speeds", "quartic_roots"]
+__all__ = ["Meetings", "find_meetings", "meeting_speeds"]
 
 _MOST_MEETINGS = 6
 
@@ -144,24 +144,3 @@ def _positive_real_roots(coefficients: np.ndarray) -> np.ndarray:
     roots = np.linalg.eigvals(companion)
     real = usable & (roots.real > 0) & (np.abs(roots.imag) <= 1e-7 * np.abs(roots))
     return np.sort(np.where(real, roots.real, np.inf), axis=-1)
-
-
-def quartic_roots(p: CharacteristicPolynomial, speeds: np.ndarray) -> np.ndarray:
-    """Return the roots (m, k, 4) of the quartics of m designs at speeds (m, k), sorted by real, imaginary part."""
-    v, u = speeds, speeds**2
-    monic = (
-        np.stack(
-            [
-                p.a3 * v,
-                p.a2[:, :1] + p.a2[:, 1:] * u,
-                (p.a1[:, :1] + p.a1[:, 1:] * u) * v,
-                p.a0[:, :1] + (p.a0[:, 1:2] + p.a0[:, 2:] * u) * u,
-            ],
-            axis=-1,
-        )
-        / p.a4[..., None]
-    )
-    companion = np.zeros((*speeds.shape, 4, 4))
-    companion[..., range(1, 4), range(3)] = 1.0
-    companion[..., 0, :] = -monic
-    return np.sort_complex(np.linalg.eigvals(companion).astype(complex))

@@ -17,15 +17,17 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 
 from singletrack.errors import InputError
-from singletrack.linear.characteristic import CharacteristicPolynomial, characteristic_polynomial
+from singletrack.linear.characteristic import characteristic_polynomial
 from singletrack.linear.eigenvalues import checked_speeds, eigenmotions, eigenvalues
-from singletrack.linear.meetings import Meetings, find_meetings, quartic_roots
+from singletrack.linear.meetings import Meetings, find_meetings
+from singletrack.linear.quartic import quartic_roots
 from singletrack.linear.slots import arrange, label_at_infinity, label_below, real_count
 
 if TYPE_CHECKING:
     import xarray
 
     from singletrack.arrays import Array
+    from singletrack.linear.characteristic import CharacteristicPolynomial
     from singletrack.linear.matrices import CoefficientMatrices
 
 __all__ = ["Modes", "modes"]
@@ -119,17 +121,12 @@ def modes(model: CoefficientMatrices, speeds: Array) -> Modes:
     v = checked_speeds(speeds)
     if (v < 0).any():
         raise InputError(f"speeds: found {v.min():g} m/s, must be zero or more (modes are named for riding forward)")
-    p = characteristic_polynomial(model)
-    batch = np.broadcast_shapes(*(np.shape(a)[:-1] for a in (p.a4, p.a2, p.a0)))
-    flat = CharacteristicPolynomial(
-        *(np.broadcast_to(a, (*batch, a.shape[-1])).reshape(-1, a.shape[-1]) for a in (p.a4, p.a3, p.a2, p.a1, p.a0))
-    )
+    polynomials, batch = characteristic_polynomial(model).flat()
     roots = eigenvalues(model, v).reshape(-1, len(v), 4)
     usable = np.isfinite(roots).all(axis=(1, 2))
     named = np.full_like(roots, np.nan)
     if usable.any():
-        some = CharacteristicPolynomial(*(a[usable] for a in (flat.a4, flat.a3, flat.a2, flat.a1, flat.a0)))
-        named[usable] = _follow(some, v, roots[usable])
+        named[usable] = _follow(polynomials.rows(usable), v, roots[usable])
     named = named.reshape(*batch, len(v), 4)
     return Modes(v, named, eigenmotions(model, v, named))
 
@@ -154,9 +151,9 @@ def _follow(p: CharacteristicPolynomial, v: np.ndarray, roots: np.ndarray) -> np
 def _labels(p: CharacteristicPolynomial, meetings: Meetings) -> tuple[np.ndarray, np.ndarray]:
     """Return, for m designs and 7 intervals, the number of real roots (m, 7) and the column of each slot (m, 7, 4)."""
     inside = meetings.between()
-    counts = real_count(quartic_roots(p, inside))
+    counts = real_count(quartic_roots(*p.monic_at(inside)))
     finite = np.isfinite(meetings.speeds)
-    at = quartic_roots(p, np.where(finite, meetings.speeds, 1.0))
+    at = quartic_roots(*p.monic_at(np.where(finite, meetings.speeds, 1.0)))
     descending = np.where(finite, meetings.speeds, 1.0) < meetings.passing[:, None]
     labels = np.empty((*counts.shape, 4), dtype=np.intp)
     labels[:, -1] = label_at_infinity(p, counts[:, -1])

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from singletrack.arrays import Array, as_arrays, dot, matvec, namespace, vector
+from singletrack.arrays import Array, as_arrays, dot, matvec, namespace
 from singletrack.linear.whipple import Matrices, matrix2
 
 if TYPE_CHECKING:
@@ -52,32 +52,28 @@ def slaved_matrices(bodies: SlavedBodies, bicycle: Bicycle) -> Matrices:
     xp, (base, trail, tilt) = as_arrays(bicycle.wheel_base, bicycle.trail, bicycle.steer_axis_tilt)
     kappa, sin = xp.cos(tilt)[..., None] / base[..., None], xp.sin(tilt)[..., None]
     mu = trail[..., None] * kappa
-    mass, r, inertia = bodies.mass, bodies.centre, bodies.inertia
-    x, y, z = r[..., 0], r[..., 1], r[..., 2]
-    ex, ez = vector(1.0, 0.0, 0.0), vector(0.0, 0.0, 1.0)
-    lean = (vector(0.0 * x, -z, y), ex)
-    yaw = (vector(-y, x, 0.0 * x), ez)
-    steer = (mu[..., None] * yaw[0] + bodies.displacement, mu[..., None] * ez + bodies.rotation)
+    mass, J = bodies.mass, bodies.displacement
+    x, y, z = (bodies.centre[..., k] for k in range(3))
+    # Unit rates: lean moves a body by (0, -z, y) and turns it about x, yaw by (-y, x, 0) about z, steer by μ times
+    # that and J, w besides. Angular momenta, and the lateral parts of momenta:
+    spin_steer = matvec(bodies.inertia, bodies.rotation) + mu[..., None] * bodies.inertia[..., :, 2]
+    lean_y, yaw_x, yaw_y = -mass * z, -mass * y, mass * x
+    steer_x, steer_y, steer_z = mu * yaw_x + mass * J[..., 0], mu * yaw_y + mass * J[..., 1], mass * J[..., 2]
+    spin_steer_w = dot(bodies.rotation, spin_steer) + mu * spin_steer[..., 2]
 
-    def pair(a: tuple[Array, Array], b: tuple[Array, Array]) -> Array:
-        return _sum(mass * dot(a[0], b[0]) + dot(a[1] + 0.0 * r, matvec(inertia, b[1] + 0.0 * r)))
-
-    def lateral(a: tuple[Array, Array]) -> Array:
-        return mass * a[0][..., 1]
-
-    off_diagonal = pair(lean, steer)
-    k0_off = -_sum(mass * (mu * x + bodies.displacement[..., 1]))
-    scale = kappa[..., 0]
+    lean_lean = _sum(mass * (y * y + z * z) + bodies.inertia[..., 0, 0])
+    lean_steer = _sum(y * steer_z - z * steer_y + spin_steer[..., 0])
+    lean_yaw = _sum(lean_y * x + bodies.inertia[..., 0, 2])
+    steer_yaw = _sum(x * steer_y - y * steer_x + spin_steer[..., 2])
+    moved = steer_x * (J[..., 0] - mu * y) + steer_y * (J[..., 1] + mu * x) + steer_z * J[..., 2]
+    k0_off = -_sum(steer_y)
+    kappa, mu, sin = kappa[..., 0], mu[..., 0], sin[..., 0]
+    lean_lateral, steer_lateral = _sum(lean_y), -k0_off
     return Matrices(
-        matrix2(pair(lean, lean), off_diagonal, off_diagonal, pair(steer, steer)),
-        matrix2(
-            0.0,
-            scale * pair(lean, yaw) + _sum(mu * lateral(lean)),
-            0.0,
-            scale * pair(steer, yaw) + _sum(mu * lateral(steer)),
-        ),
-        matrix2(_sum(mass * z), k0_off, k0_off, -_sum(mass * (mu * x * sin + bodies.curvature[..., 2]))),
-        matrix2(0.0, _sum(kappa * lateral(lean)), 0.0, _sum(kappa * lateral(steer))),
+        matrix2(lean_lean, lean_steer, lean_steer, _sum(moved + spin_steer_w)),
+        matrix2(0.0, kappa * lean_yaw + mu * lean_lateral, 0.0, kappa * steer_yaw + mu * steer_lateral),
+        matrix2(-lean_lateral, k0_off, k0_off, -mu * sin * _sum(yaw_y) - _sum(mass * bodies.curvature[..., 2])),
+        matrix2(0.0, kappa * lean_lateral, 0.0, kappa * steer_lateral),
     )
 
 

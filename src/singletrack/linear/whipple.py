@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from singletrack.arrays import Array, as_arrays, vector
+from singletrack.arrays import Array, as_arrays, stack, vector
 
 if TYPE_CHECKING:
     from singletrack.parameters import Bicycle
@@ -34,8 +34,7 @@ class _System(NamedTuple):
 
 def matrix2(a11: Array, a12: Array, a21: Array, a22: Array) -> Array:
     """Return matrices (..., 2, 2) of their entries (...)."""
-    xp, rows = as_arrays(vector(a11, a12), vector(a21, a22))
-    return xp.stack(xp.broadcast_arrays(*rows), axis=-2)
+    return stack([vector(a11, a12), vector(a21, a22)], -2)
 
 
 def whipple_matrices(bicycle: Bicycle) -> Matrices:

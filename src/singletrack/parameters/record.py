@@ -96,7 +96,13 @@ class Record:
     extras: Mapping[str, float] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        refuse_single(self.faults(), where=self.name)
+        object.__setattr__(self, "_standing", refuse_single(self.faults(), where=self.name))
+
+    @property
+    def standing_faults(self) -> tuple[Fault, ...]:
+        """The faults that some design of a batch has, as found when the record was made."""
+        found: tuple[Fault, ...] = self.__dict__["_standing"]
+        return found
 
     @classmethod
     def descriptions(cls) -> dict[str, Parameter]:

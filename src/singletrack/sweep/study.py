@@ -1,0 +1,204 @@
+"""Study files: which bicycle and rider, what varies and how, at which speeds, and what to keep.
+
+The file is checked in full before anything is computed; all that is wrong is said at once, a line for each entry.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import hashlib
+import json
+import tomllib
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated, Any, Literal
+
+import numpy as np
+from pydantic import BaseModel, ConfigDict, Field, ValidationError
+
+import singletrack
+from singletrack.errors import InputError, unknown_name
+from singletrack.parameters import Bicycle, Rider, load_bicycle, load_rider, shipped
+from singletrack.parameters.files import _place as place_in_file  # the same words for the same place
+from singletrack.parameters.files import read_text
+from singletrack.speeds import parse_speeds
+from singletrack.sweep.designs import Designs, make_designs
+from singletrack.sweep.vary import parse_variation
+
+__all__ = ["KEEP", "Study", "load_study"]
+
+KEEP = ("matrices", "eigenvalues", "critical_speeds", "stable_ranges")
+
+Method = Literal["grid", "list", "random", "latin-hypercube", "sobol"]
+
+
+class _Strict(BaseModel):
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+
+class _Sampling(_Strict):
+    method: Method = "grid"
+    samples: Annotated[int, Field(strict=True, ge=1, le=100_000_000)] | None = None
+    seed: Annotated[int, Field(strict=True, ge=0, lt=2**32)] = 0
+
+
+class _StudyFile(_Strict):
+    kind: Literal["study"] = "study"
+    name: str = ""
+    description: str = ""
+    bicycle: str
+    rider: str | None = None
+    posture: Literal["rigid", "leaned", "upright"] = "rigid"
+    shoulder: Literal["abduction", "axial"] | None = None
+    speeds: str | float | list[float]
+    keep: Annotated[list[Literal["matrices", "eigenvalues", "critical_speeds", "stable_ranges"]], Field(min_length=1)]
+    sampling: _Sampling = _Sampling()
+    vary: Annotated[dict[str, Any], Field(min_length=1)]
+
+
+@dataclass(frozen=True, eq=False)
+class Study:
+    """A study, ready to run.
+
+    Attributes
+    ----------
+    name, description, posture : str
+    shoulder : str or None
+    bicycle : Bicycle
+    rider : Rider or None
+    designs : Designs
+        The parameters that vary.
+    speeds : array, shape (n,)
+        In m/s.
+    keep : tuple of str
+        Of :data:`KEEP`.
+    """
+
+    name: str
+    description: str
+    bicycle: Bicycle
+    rider: Rider | None
+    posture: str
+    shoulder: str | None
+    designs: Designs
+    speeds: np.ndarray
+    keep: tuple[str, ...]
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return all that determines the results, for provenance: plain values, SI units."""
+        rider = None if self.rider is None else _record_values(self.rider)
+        return {
+            "singletrack": singletrack.__version__,
+            "bicycle": _record_values(self.bicycle),
+            "rider": rider,
+            "posture": self.posture,
+            "shoulder": self.shoulder,
+            "designs": self.designs.to_dict(),
+            "speeds": self.speeds.tolist(),
+            "keep": list(self.keep),
+        }
+
+    @property
+    def fingerprint(self) -> str:
+        """Hash of :meth:`to_dict`: equal for studies with equal results."""
+        return hashlib.sha256(json.dumps(self.to_dict(), sort_keys=True).encode()).hexdigest()
+
+
+def _record_values(record: Bicycle | Rider) -> dict[str, Any]:
+    values: dict[str, Any] = {name: float(value) for name, value in record.values().items()}
+    if isinstance(record, Rider) and record.shapes:
+        values["shapes"] = {name: dataclasses.asdict(shape) for name, shape in record.shapes.items()}
+    return {"name": record.name, **values}
+
+
+def load_study(path: str | Path) -> Study:
+    """Load a study file.
+
+    Parameters
+    ----------
+    path : str or path
+        A TOML file. Bicycle and rider are shipped names or files, relative to the study file.
+
+    Raises
+    ------
+    InputError
+        One line for each thing that is wrong: file, line, entry, what was found and what is allowed.
+    """
+    path = Path(path)
+    if not path.exists():
+        raise InputError(f"{path}: there is no such study file")
+    text = read_text(path)
+    try:
+        document = tomllib.loads(text)
+    except (tomllib.TOMLDecodeError, RecursionError) as error:
+        raise InputError(f"{path}: is not valid TOML: {error or 'nested too deeply'}") from None
+    try:
+        checked = _StudyFile.model_validate(document)
+    except ValidationError as error:
+        lines = [f"{_place(path, text, problem['loc'])}: {_words(problem)}" for problem in error.errors()]
+        raise InputError("\n".join(dict.fromkeys(lines))) from None
+    return _resolved(checked, path, text)
+
+
+def _resolved(file: _StudyFile, path: Path, text: str) -> Study:
+    bicycle = load_bicycle(_name_or_file("bicycle", file.bicycle, path))
+    rider = None if file.rider is None else load_rider(_name_or_file("rider", file.rider, path))
+    if rider is None and file.posture != "rigid":
+        raise InputError(f"{_place(path, text, ('posture',))}: posture = {file.posture!r} needs a rider = ...")
+    variations = [
+        parse_variation(name, found, _place(path, text, ("vary", name)), with_rider=rider is not None)
+        for name, found in file.vary.items()
+    ]
+    if rider is not None and "forward_lean_angle" not in file.vary:
+        rider = rider.on(bicycle)
+    sampling = file.sampling
+    designs = make_designs(variations, sampling.method, sampling.samples, sampling.seed, str(path))
+    return Study(
+        name=file.name or path.stem,
+        description=file.description,
+        bicycle=bicycle,
+        rider=rider,
+        posture=file.posture,
+        shoulder=file.shoulder,
+        designs=designs,
+        speeds=_speeds(file.speeds, _place(path, text, ("speeds",))),
+        keep=tuple(name for name in KEEP if name in file.keep),
+    )
+
+
+def _name_or_file(kind: str, found: str, study: Path) -> str | Path:
+    beside = study.parent / found
+    return beside if found not in shipped(kind) and beside.exists() else found
+
+
+def _speeds(found: str | float | list[float], place: str) -> np.ndarray:
+    if isinstance(found, str):
+        try:
+            return parse_speeds(found)
+        except InputError as error:
+            raise InputError(f"{place}: {str(error).replace('--speeds', 'speeds =')}") from None
+    speeds = np.atleast_1d(np.asarray(found, dtype=float))
+    if not len(speeds) or not np.isfinite(speeds).all() or (speeds < 0).any():
+        raise InputError(f"{place}: speeds = {found}, must be finite numbers of zero or more, in m/s")
+    return speeds
+
+
+def _place(path: Path, text: str, location: tuple[int | str, ...]) -> str:
+    name = next((str(part) for part in reversed(location) if isinstance(part, str) and f"{part}" in text), "")
+    return place_in_file(str(path), text, name) if name else str(path)
+
+
+def _words(problem: Any) -> str:
+    """Return one of pydantic's findings in our words: entry, found, allowed."""
+    names = [str(part) for part in problem["loc"] if part in _entries()]
+    entry = ".".join(names) or str(problem["loc"][-1])
+    if problem["type"] == "extra_forbidden":
+        return unknown_name("entry", str(problem["loc"][-1]), _entries())
+    if problem["type"] == "missing":
+        return f"lacks {entry}"
+    allowed = problem["msg"].removeprefix("Input should be ").replace("Input should have", "having")
+    return f"{entry} = {str(problem['input'])[:80]!r}, must be {allowed}"
+
+
+def _entries() -> list[str]:
+    return [*_StudyFile.model_fields, *_Sampling.model_fields]
