@@ -266,3 +266,19 @@ def test_bad_files_for_the_file_commands(run, arguments, tmp_path, monkeypatch):
     assert err.startswith("singletrack: ")
     assert err.count("\n") == 1
     assert list(tmp_path.iterdir()) == []
+
+
+def test_sweep_from_the_command_line(run, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    study = tmp_path / "trail.toml"
+    study.write_text(
+        'kind = "study"\nname = "trail"\nbicycle = "stratos"\nspeeds = "0:10:3"\nkeep = ["matrices"]\n'
+        '[vary]\ntrail = { from = "50 mm", to = "60 mm", count = 3 }\n'
+    )
+    assert run("sweep", str(study), "--workers", "1")[0] == 0
+    assert (tmp_path / "trail.zarr").is_dir()
+    for wrong in (["none.toml"], ["."], [str(study), "--workers", "0"], [str(study), "--output", "/proc/none/x.zarr"]):
+        code, out, err = run("sweep", *wrong)
+        assert (code, out) == (2, "")
+        assert "Traceback" not in err
+        assert err.startswith("singletrack: ")

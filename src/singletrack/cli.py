@@ -260,6 +260,19 @@ def period(
 
 
 @app.command()
+def sweep(
+    study: Annotated[Path, typer.Argument(metavar="STUDY", help="A study file (TOML).")],
+    output: Annotated[Path | None, typer.Option(metavar="STORE", help="Zarr store to write.")] = None,
+    scheduler: Annotated[str | None, typer.Option(metavar="ADDRESS", help="A running Dask scheduler.")] = None,
+    workers: Annotated[int | None, typer.Option(help="Processes on this machine; by default one a core.")] = None,
+) -> None:
+    """Compute many designs as a study file says; interrupted, the same command goes on."""
+    from singletrack.sweep.command import run_study
+
+    run_study(study, output, scheduler, workers)
+
+
+@app.command()
 def reproduce(
     output: Annotated[Path, typer.Option("--output", metavar="DIR", help="Where to write; made if needed.")] = Path(
         "singletrack-output"
