@@ -281,4 +281,15 @@ def test_sweep_from_the_command_line(run, tmp_path, monkeypatch):
         code, out, err = run("sweep", *wrong)
         assert (code, out) == (2, "")
         assert "Traceback" not in err
-        assert err.startswith("singletrack: ")
+        assert err.splitlines()[-1].startswith("singletrack: ")  # after the progress, if it had begun
+
+
+def test_no_traceback_reaches_a_user(run, monkeypatch):
+    def fail(_):
+        raise ZeroDivisionError("what nobody thought of")
+
+    monkeypatch.setattr("singletrack.parameters.load_bicycle", fail)
+    code, out, err = run("coefficients", "stratos")
+    assert (code, out) == (1, "")
+    assert "internal error, please report it: ZeroDivisionError: what nobody thought of" in err
+    assert "Traceback" not in err

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -303,4 +304,13 @@ def main() -> None:
     except usage_error as error:
         typer.echo(f"singletrack: {error.format_message()}", err=True)
         code = 2
+    except OSError as error:
+        typer.echo(f"singletrack: {error.filename or 'a file'}: {error.strerror or error}", err=True)
+        code = 2
+    except Exception as error:  # a user is told what happened; the traceback is for those who ask for it
+        if os.environ.get("SINGLETRACK_TRACEBACK"):
+            raise
+        text = f"internal error, please report it: {type(error).__name__}: {error}"
+        typer.echo(f"singletrack: {text} (SINGLETRACK_TRACEBACK=1 shows where)", err=True)
+        code = 1
     sys.exit(code if isinstance(code, int) else 0)

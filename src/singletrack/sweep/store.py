@@ -93,8 +93,13 @@ class Store:
                 yield start, min(start + size, count)
 
     def __enter__(self) -> Self:
-        self.partial.mkdir(parents=True, exist_ok=True)
-        journal = (self.partial / "journal.jsonl").open("a+", encoding="utf-8")
+        try:
+            self.partial.mkdir(parents=True, exist_ok=True)
+            journal = (self.partial / "journal.jsonl").open("a+", encoding="utf-8")
+        except OSError as error:
+            raise InputError(
+                f"{self.partial}: cannot be written ({error.strerror}); must be in a folder that can be"
+            ) from None
         try:
             fcntl.flock(journal, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except OSError:
