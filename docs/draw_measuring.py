@@ -66,7 +66,8 @@ def bicycle():
     measure(axes, at[16], at[19], "handlebar_length", (0, -0.08))
     axes.add_patch(Arc(at[5], 0.3, 0.3, theta1=180, theta2=180 + 68.5, lw=0.8))
     axes.plot([at[5][0] - 0.2, at[5][0]], [at[5][1]] * 2, color="0.6", lw=0.5)
-    axes.text(at[5][0] - 0.17, at[5][1] - 0.09, "seat_tube_angle", fontsize=8, ha="right")
+    clear = {"fc": "white", "ec": "none", "pad": 1}
+    axes.text(at[5][0] - 0.17, at[5][1] - 0.09, "seat_tube_angle", fontsize=8, ha="right", bbox=clear)
     axes.plot([at[11][0]] * 2, [at[11][1], at[11][1] - 0.45], color="0.6", lw=0.5)
     axes.text(at[11][0] + 0.01, at[11][1] - 0.47, "steer_axis_tilt", fontsize=8, ha="left")
     axes.text(at[19][0] - 0.02, at[19][1], "grip", fontsize=8, ha="right", va="center")

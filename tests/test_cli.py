@@ -213,3 +213,72 @@ def test_output_that_cannot_be_written(run, tmp_path):
         assert str(output) in err
         assert "cannot be used for output" in err
     assert blocked.read_text() == ""
+
+
+def test_files_from_the_command_line(run, tmp_path):
+    """Convert to another tool's text and back, then compute from it."""
+    text, toml = tmp_path / "stratos.txt", tmp_path / "stratos.toml"
+    assert run("convert", "stratos", str(text))[0] == 0
+    assert run("convert", str(text), str(toml))[0] == 0
+    _, out, _ = run("coefficients", str(toml), "--json")
+    np.testing.assert_allclose(json.loads(out)["M"], coefficients(load_bicycle("stratos")).M, rtol=1e-14)
+    code, out, _ = run("schema", "bicycle")
+    assert code == 0
+    assert json.loads(out)
+    assert run("template", "measurements")[1]
+    assert run("show", "stratos", "--rider", "rider-a", "--posture", "leaned")[0] == 0
+
+
+def test_measure_and_period_from_the_command_line(run, tmp_path):
+    shared = Path(__file__).parents[2] / "shared" / "data" / "bicycleparameters" / "bicycles" / "StratosMeasured.txt"
+    if not shared.exists():
+        pytest.skip("the measured Stratos lies outside the repository, in ../shared/data")
+    code, out, _ = run("measure", str(shared), "--output", str(tmp_path / "mine.toml"))
+    assert code == 0
+    assert "rear_frame_inertia_xx" in out
+    assert run("critical-speeds", str(tmp_path / "mine.toml"))[0] == 0
+    signal = tmp_path / "swing.txt"
+    time = np.linspace(0, 20, 2001)
+    np.savetxt(signal, np.column_stack([time, np.exp(-0.02 * time) * np.cos(2 * np.pi * time / 1.7)]))
+    code, out, _ = run("period", str(signal), "--plot", str(tmp_path / "fit.png"))
+    assert code == 0
+    assert out.startswith("period: 1.7")
+    assert (tmp_path / "fit.png").read_bytes().startswith(b"\x89PNG")
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ["convert", "stratos", "out.docx"],
+        ["convert", "nothing", "out.toml"],
+        ["convert", "rider-a", "out.txt"],
+        ["measure", "none.txt"],
+        ["measure", "."],
+        ["period", "none.txt"],
+        ["schema", "car"],
+    ],
+    ids=" ".join,
+)
+def test_bad_files_for_the_file_commands(run, arguments, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    code, out, err = run(*arguments)
+    assert (code, out) == (2, "")
+    assert err.startswith("singletrack: ")
+    assert err.count("\n") == 1
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_sweep_from_the_command_line(run, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    study = tmp_path / "trail.toml"
+    study.write_text(
+        'kind = "study"\nname = "trail"\nbicycle = "stratos"\nspeeds = "0:10:3"\nkeep = ["matrices"]\n'
+        '[vary]\ntrail = { from = "50 mm", to = "60 mm", count = 3 }\n'
+    )
+    assert run("sweep", str(study), "--workers", "1")[0] == 0
+    assert (tmp_path / "trail.zarr").is_dir()
+    for wrong in (["none.toml"], ["."], [str(study), "--workers", "0"], [str(study), "--output", "/proc/none/x.zarr"]):
+        code, out, err = run("sweep", *wrong)
+        assert (code, out) == (2, "")
+        assert "Traceback" not in err
+        assert err.startswith("singletrack: ")

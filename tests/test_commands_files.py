@@ -153,7 +153,7 @@ def test_measure_prints_all_parameters_and_writes(raw, tmp_path, capsys):
     printed = capsys.readouterr().out
     bicycle = load_bicycle(output)
     assert all(name in printed for name in bicycle.values())
-    assert "difference / deviation" in printed
+    assert "agrees" in printed
     assert "weave speed" in printed
     assert bicycle.standard_deviations["trail"] > 0
 
@@ -162,7 +162,7 @@ def test_measure_prints_all_parameters_and_writes(raw, tmp_path, capsys):
 def test_measure_compares_with_the_shipped_bicycle_of_that_name(name, shared_data, capsys):
     commands.measure(shared_data / "bicycles" / f"{name}Measured.txt")
     printed = " ".join(capsys.readouterr().out.split())
-    assert "yes: rounded" in printed
+    assert "_radius: rounded" in printed
     assert "exchanged" in printed
 
 

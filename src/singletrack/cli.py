@@ -3,12 +3,30 @@
 from __future__ import annotations
 
 import sys
-from enum import StrEnum
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from singletrack.cli_options import (
+    BicycleArgument,
+    CentreFit,
+    CsvOption,
+    EngineName,
+    EngineOption,
+    JsonOption,
+    OutputFileOption,
+    Parameterization,
+    PostureName,
+    PostureOption,
+    RecordKind,
+    RiderOption,
+    SetOption,
+    ShoulderName,
+    ShoulderOption,
+    SpeedsOption,
+    TemplateKind,
+)
 from singletrack.errors import InputError, SingletrackError, unknown_name
 
 if TYPE_CHECKING:
@@ -22,55 +40,6 @@ app = typer.Typer(
     add_completion=False,
     pretty_exceptions_enable=False,
 )
-
-
-class PostureName(StrEnum):
-    """Postures of a rider."""
-
-    rigid = "rigid"
-    leaned = "leaned"
-    upright = "upright"
-
-
-class ShoulderName(StrEnum):
-    """Second axis of the shoulder joint."""
-
-    abduction = "abduction"
-    axial = "axial"
-
-
-class EngineName(StrEnum):
-    """The two independent derivations."""
-
-    closed_form = "closed-form"
-    multibody = "multibody"
-
-
-class RecordKind(StrEnum):
-    """Kinds of parameter files."""
-
-    bicycle = "bicycle"
-    rider = "rider"
-
-
-BicycleArgument = Annotated[str, typer.Argument(metavar="BICYCLE", help="A shipped name or a file.")]
-RiderOption = Annotated[
-    str | None, typer.Option("--rider", metavar="RIDER", help="A shipped name or a file; without: no rider.")
-]
-PostureOption = Annotated[PostureName, typer.Option("--posture", help="rigid: hands free.")]
-ShoulderOption = Annotated[
-    ShoulderName | None, typer.Option("--shoulder", help="Second shoulder axis; by default as the posture has it.")
-]
-EngineOption = Annotated[EngineName, typer.Option("--engine", help="Which derivation to use.")]
-SetOption = Annotated[
-    list[str] | None,
-    typer.Option("--set", metavar="NAME=VALUE", help='Change a parameter, e.g. "steer_axis_tilt=18.5 deg".'),
-]
-SpeedsOption = Annotated[
-    str, typer.Option("--speeds", metavar="START:STOP:COUNT", help="Forward speeds in m/s, or one value.")
-]
-JsonOption = Annotated[bool, typer.Option("--json", help="Print JSON in full precision.")]
-CsvOption = Annotated[bool, typer.Option("--csv", help="Print CSV in full precision.")]
 
 
 def _changes(settings: list[str] | None) -> dict[str, str]:
@@ -216,20 +185,91 @@ def list_shipped() -> None:
 
 
 @app.command()
-def show(name: Annotated[str, typer.Argument(metavar="NAME", help="A shipped name or a file.")]) -> None:
-    """Print the parameters of a bicycle or rider."""
-    from singletrack.parameters.files import load_any
-    from singletrack.present.tables import record_table
+def show(
+    name: Annotated[str, typer.Argument(metavar="NAME", help="A shipped name or a file in any format.")],
+    rider: RiderOption = None,
+    posture: PostureOption = PostureName.rigid,
+    shoulder: ShoulderOption = None,
+) -> None:
+    """Print everything that follows from a bicycle or rider, with a drawing."""
+    from singletrack import commands_files
 
-    _print(record_table(load_any(name)))
+    commands_files.show(name, rider, posture.value, None if shoulder is None else shoulder.value)
 
 
 @app.command()
-def template(kind: Annotated[RecordKind, typer.Argument(help="bicycle or rider")]) -> None:
+def template(
+    kind: Annotated[TemplateKind, typer.Argument(help="What to fill in.")], output: OutputFileOption = None
+) -> None:
     """Print a commented parameter file to fill in."""
-    from singletrack.parameters.template import template as text
+    from singletrack import commands_files
 
-    typer.echo(text(kind.value), nl=False)
+    commands_files.template(kind.value, output)
+
+
+@app.command()
+def schema(
+    kind: Annotated[RecordKind, typer.Argument(help="bicycle or rider")], output: OutputFileOption = None
+) -> None:
+    """Print the JSON schema of a parameter file, for editors."""
+    from singletrack import commands_files
+
+    commands_files.schema(kind.value, output)
+
+
+@app.command()
+def convert(
+    source: Annotated[str, typer.Argument(metavar="IN", help="A shipped name or a file in any format.")],
+    output: Annotated[Path, typer.Argument(metavar="OUT", help="Its suffix says how: .toml, .txt, .yml.")],
+    parameterization: Annotated[Parameterization, typer.Option(help="Symbols of a .yml parameter set.")] = (
+        Parameterization.benchmark
+    ),
+    configuration: Annotated[Path | None, typer.Option(help="Posture file of a rider by 95 measurements.")] = None,
+    rigid_rider: Annotated[Path | None, typer.Option(help="Rigid rider to lump into the rear frame.")] = None,
+) -> None:
+    """Read a bicycle or rider in any format and write it in another."""
+    from singletrack import commands_files
+
+    commands_files.convert(source, output, parameterization.value, configuration, rigid_rider)
+
+
+@app.command()
+def measure(
+    file: Annotated[Path, typer.Argument(metavar="FILE", help="Raw measurements.")],
+    compare: Annotated[str | None, typer.Option(help="A bicycle to compare with, or none.")] = None,
+    output: Annotated[Path | None, typer.Option(help="Write the bicycle here: .toml, .txt or .yml.")] = None,
+    centre_fit: Annotated[CentreFit, typer.Option(help="How centres follow from plumb lines.")] = (
+        CentreFit.perpendicular
+    ),
+) -> None:
+    """Turn pendulum periods, hanging angles and lengths into parameters with uncertainties."""
+    from singletrack import commands_files
+
+    commands_files.measure(file, compare, output, centre_fit.value)
+
+
+@app.command()
+def period(
+    file: Annotated[Path, typer.Argument(metavar="FILE", help="Two columns: time in s, signal.")],
+    plot: Annotated[Path | None, typer.Option(help="Draw signal and fit here: .png, .svg or .pdf.")] = None,
+) -> None:
+    """Fit a decaying oscillation to a recorded signal and print its period with its uncertainty."""
+    from singletrack import commands_files
+
+    commands_files.period(file, plot)
+
+
+@app.command()
+def sweep(
+    study: Annotated[Path, typer.Argument(metavar="STUDY", help="A study file (TOML).")],
+    output: Annotated[Path | None, typer.Option(metavar="STORE", help="Zarr store to write.")] = None,
+    scheduler: Annotated[str | None, typer.Option(metavar="ADDRESS", help="A running Dask scheduler.")] = None,
+    workers: Annotated[int | None, typer.Option(help="Processes on this machine; by default one a core.")] = None,
+) -> None:
+    """Compute many designs as a study file says; interrupted, the same command goes on."""
+    from singletrack.sweep.command import run_study
+
+    run_study(study, output, scheduler, workers)
 
 
 @app.command()

@@ -4,6 +4,9 @@ Names come from physics at high speed, where every bicycle is alike: one real ro
 three grow with the speed, a real one (castering) and a pair (weave). From there each root is followed down to any
 speed along the exact meetings of roots (:mod:`singletrack.linear.meetings`), so that the name of a root depends on the
 bicycle and the speed alone, and all four roots are there at every speed.
+
+Where weave splits into two real roots and one of these meets another real root, that is one event: the oscillation goes
+on as weave, and the root left over takes the other's name. Only there a column jumps, from one real root to another.
 """
 
 from __future__ import annotations
@@ -39,7 +42,8 @@ class Modes:
     speeds : array, shape (n,)
         Forward speeds in m/s.
     eigenvalues : complex array, shape (..., n, 4)
-        In 1/s; columns as in :attr:`names`. Of a pair, the first column has the positive imaginary part.
+        In 1/s; columns as in :attr:`names`. Of a weave pair, the first column has the
+        positive imaginary part; of two real weave roots it has the smaller.
     eigenmotions : complex array, shape (..., n, 4, 2)
         Lean and steer of each mode, lean normalised to one.
     """
@@ -137,7 +141,9 @@ def _follow(p: CharacteristicPolynomial, v: np.ndarray, roots: np.ndarray) -> np
     columns = np.take_along_axis(labels, interval[..., None], axis=1)
     named = np.empty_like(roots)
     np.put_along_axis(named, columns, slots, axis=-1)
-    swapped = (named[..., 0].imag < 0) & (named[..., 1].imag > 0)
+    first, second = named[..., 0], named[..., 1]
+    both_real = (first.imag == 0) & (second.imag == 0)
+    swapped = ((first.imag < 0) & (second.imag > 0)) | (both_real & (first.real > second.real))
     named[..., :2] = np.where(swapped[..., None], named[..., 1::-1], named[..., :2])
     return named
 

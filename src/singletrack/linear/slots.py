@@ -18,6 +18,9 @@ if TYPE_CHECKING:
 __all__ = ["arrange", "label_at_infinity", "label_below", "real_count"]
 
 
+_WEAVES = 2  # columns 0 and 1 are weave
+
+
 def real_count(roots: np.ndarray) -> np.ndarray:
     """Return how many of the roots (..., 4) are real: 0, 2 or 4.
 
@@ -139,8 +142,20 @@ def _insert(labels: np.ndarray, before: np.ndarray) -> np.ndarray:
 
 
 def _extract(labels: np.ndarray, before: np.ndarray) -> np.ndarray:
-    """Make two of four real roots, after ``before`` others, a pair."""
-    return _take(labels, [[2, 3, 0, 1], [0, 3, 1, 2], [0, 1, 2, 3]], before)
+    """Make two of four real roots, after ``before`` others, a pair; a pair of weave and another mode is all weave.
+
+    Where weave splits and one half meets another real root, the oscillation goes on: it keeps its name, and the half
+    that stays real takes the other's.
+    """
+    taken = _take(labels, [[2, 3, 0, 1], [0, 3, 1, 2], [0, 1, 2, 3]], before)
+    real_weave = taken[:, :2] < _WEAVES
+    other_in_pair = taken[:, 2:] >= _WEAVES
+    mixed = (real_weave.sum(axis=1) == 1) & (other_in_pair.sum(axis=1) == 1)
+    single, partner = np.argmax(real_weave, axis=1), 2 + np.argmax(other_in_pair, axis=1)
+    order = np.tile(np.arange(4), (len(taken), 1))
+    rows = np.flatnonzero(mixed)
+    order[rows, single[rows]], order[rows, partner[rows]] = partner[rows], single[rows]
+    return np.take_along_axis(taken, order, axis=1)
 
 
 def _pair_to_front(labels: np.ndarray, first: np.ndarray) -> np.ndarray:

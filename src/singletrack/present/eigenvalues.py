@@ -88,15 +88,25 @@ def _mark_speeds(axes: Axes, critical: CriticalSpeeds) -> list[float]:
     return [speed for speed, _ in marks]
 
 
+def _broken(roots: np.ndarray, column: int) -> np.ndarray:
+    """Return the real part of a mode, NaN where its name passes on from one root to another (see linear.modes)."""
+    real = roots[:, column].real.copy()
+    step = np.abs(np.diff(roots[:, column]))
+    nearest = np.abs(roots[1:, column, None] - roots[:-1]).min(axis=1)
+    real[1:][(step > 5 * nearest + 0.2) & (roots[1:, column].imag == 0) & (roots[:-1, column].imag == 0)] = np.nan
+    return real
+
+
 def _mode_curves(modes: Modes) -> list[tuple[Curve, bool]]:
     """Return the curves of the modes, and whether they are dashed (imaginary parts, where not zero)."""
     v, roots = modes.speeds, modes.eigenvalues
     curves = []
     for column, name in enumerate(modes.names):
         colour = COLOURS[name]
+        real = _broken(roots, column)
         imaginary = np.where(roots[:, column].imag > 0, roots[:, column].imag, np.nan)
         second_of_pair = column == 1
-        curves.append((Curve(v, roots[:, column].real, "" if second_of_pair else f"Re {name}", colour), False))
+        curves.append((Curve(v, real, "" if second_of_pair else f"Re {name}", colour), False))
         if np.isfinite(imaginary).any():
             curves.append((Curve(v, imaginary, "" if second_of_pair else f"Im {name}", colour), True))
     return curves

@@ -73,23 +73,30 @@ def print_oddities(console: Console, record: Record, rider: Rider | None) -> Non
 def print_measured(console: Console, found: Measurement, other: Bicycle | None) -> None:
     """Print measured parameters, beside those of another source if given."""
     table = Table(box=None, pad_edge=False)
-    for heading in ("parameter", "measured", "standard deviation"):
-        table.add_column(heading)
+    for heading in ("parameter", "measured", "± sd"):
+        table.add_column(heading, no_wrap=True)
+    notes: list[str] = []
     agreements = {} if other is None else {a.name: a for a in compare_measured(found.bicycle, other)}
     if other is not None:
-        table.add_column(Text(other.name or "other"))
-        table.add_column("difference / deviation")
-        table.add_column("agrees")
+        for heading in (other.name or "other", "Δ/sd", "agrees"):
+            table.add_column(Text(heading), no_wrap=True)
     for row in parameter_rows(found.bicycle):
-        cells = [row.name, row.value, row.deviation]
+        cells = [row.name, row.value, row.deviation.removeprefix("± ")]
         agreement = agreements.get(row.name)
         if agreement is not None:
             unit = row.value.split(" ", 1)[-1]
             factor = 180 / math.pi if unit == "deg" else 1.0
             verdict = "yes" if agreement.agrees else "no"
-            cells += [f"{factor * agreement.other:.6g} {unit}", f"{agreement.ratio:+.2f}", agreement.reason or verdict]
+            if agreement.reason:
+                notes.append(
+                    f"({len(notes) + 1}) {row.name}: {agreement.reason.removeprefix('yes: ').removeprefix('no: ')}"
+                )
+                verdict += f" ({len(notes)})"
+            cells += [f"{factor * agreement.other:.6g}", f"{agreement.ratio:+.2f}", verdict]
         table.add_row(*cells)
     console.print(table)
+    for note in notes:
+        console.print(note, markup=False, soft_wrap=True)
 
 
 def print_measured_speeds(console: Console, found: Measurement) -> None:

@@ -16,7 +16,6 @@ if TYPE_CHECKING:
     import numpy as np
 
     from singletrack.linear import CoefficientMatrices, CriticalSpeeds, Modes
-    from singletrack.parameters.record import Record
 
 __all__ = [
     "coefficients_table",
@@ -24,7 +23,6 @@ __all__ = [
     "eigenvalues_csv",
     "eigenvalues_table",
     "format_root",
-    "record_table",
     "write_csv",
 ]
 
@@ -128,22 +126,3 @@ def critical_speeds_text(speeds: CriticalSpeeds) -> str:
         "stable": ", ".join(ranges) or "never",
     }
     return "\n".join(f"{name:<16}{value}" for name, value in lines.items())
-
-
-def record_table(record: Record) -> Group:
-    """Return the parameters of a bicycle or rider for reading; angles in degrees."""
-    from math import degrees  # noqa: PLC0415
-
-    table = _table(f"{record.name}: {record.description}")
-    for heading in ("parameter", "symbol", "value", "unit", "meaning"):
-        table.add_column(heading, justify="right" if heading == "value" else "left")
-    group = ""
-    for name, value in record.values().items():
-        p = record.descriptions()[name]
-        if p.group != group:
-            group = p.group
-            table.add_section()
-            table.add_row(f"[bold]{group}[/]")
-        shown, unit = (degrees(value), "deg") if p.unit == "rad" else (value, p.unit.replace("**", "^"))
-        table.add_row(name, p.symbol, f"{shown:.10g}", unit, p.meaning)
-    return Group(table, record.source)
