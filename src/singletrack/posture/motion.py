@@ -15,7 +15,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from singletrack.arrays import Array, as_arrays, cross, is_concrete, namespace, stack, vector
+from singletrack.arrays import Array, as_arrays, cross, is_concrete, is_jax, namespace, stack, vector
 from singletrack.errors import PostureError
 from singletrack.faults import Fault, refuse_single
 
@@ -155,43 +155,43 @@ def joint_motion(posture: Posture, bicycle: Bicycle) -> tuple[dict[str, Array], 
     if not posture.loops:
         return {}, {}, ()
     foot, axis = steer_axis(bicycle)
-    matrix = _loop_matrix(posture)
-    xp = namespace(matrix)
-    faults = _singular_faults(matrix, posture)
-    for fault in faults:
-        matrix = xp.where(fault.bad[..., None, None], xp.nan, matrix)
+    inverse, faults = _inverse(_loop_matrix(posture), posture)
     turning = [cross(axis, loop.point - foot) for loop in posture.loops]
-    first = _by_joint(posture, _solve(matrix, turning))
+    first = _by_joint(posture, _apply(inverse, turning))
     links = _links(posture, first)
     residual = [
         cross(axis, velocity) - links[loop.joint].at(loop.point)[1]
         for loop, velocity in zip(posture.loops, turning, strict=True)
     ]
-    return first, _by_joint(posture, _solve(matrix, residual)), faults
+    return first, _by_joint(posture, _apply(inverse, residual)), faults
 
 
-def _solve(matrix: Array, parts: list[Array]) -> Array:
+def _apply(inverse: Array, parts: list[Array]) -> Array:
     xp, right_sides = as_arrays(*parts)
     right = xp.concat(xp.broadcast_arrays(*right_sides), axis=-1)
-    return xp.linalg.solve(matrix, right[..., None])[..., 0]
+    return xp.matmul(inverse, right[..., None])[..., 0]
 
 
 def _by_joint(posture: Posture, values: Array) -> dict[str, Array]:
     return {joint.name: values[..., i] for i, joint in enumerate(posture.joints)}
 
 
-def _singular_faults(matrix: Array, posture: Posture) -> tuple[Fault, ...]:
+def _inverse(matrix: Array, posture: Posture) -> tuple[Array, tuple[Fault, ...]]:
+    """Return the inverse of the loops' matrix, NaN where the loops cannot move, and these faults."""
+    xp = namespace(matrix)
     if not is_concrete(matrix):
-        return ()
+        return xp.linalg.inv(matrix), ()
     import numpy as np  # noqa: PLC0415
 
     numbers = np.asarray(matrix)
+    try:
+        inverse = np.linalg.inv(numbers)
+        # |A| |A⁻¹| (Frobenius) is at least σmax / σmin: enough to clear nearly all, at a tenth of the cost.
+        condition = np.linalg.norm(numbers, axis=(-2, -1)) * np.linalg.norm(inverse, axis=(-2, -1))
+    except np.linalg.LinAlgError:  # one of them is singular to the last bit
+        condition = np.full(numbers.shape[:-2], np.inf)
     finite = np.isfinite(numbers).all(axis=(-2, -1))
-    numbers = np.where(finite[..., None, None], numbers, 0.0)
-    # With singular values σ, |det| / |A|⁶ is less than σmin / σmax: enough to clear nearly all, at a tenth of the cost.
-    size = np.sqrt(np.sum(np.abs(numbers) ** 2, axis=(-2, -1)))
-    with np.errstate(invalid="ignore", divide="ignore"):
-        suspect = finite & ~(np.abs(np.linalg.det(numbers)) > _SINGULAR * size ** numbers.shape[-1])
+    suspect = finite & ~(condition * _SINGULAR < 1)
     bad = np.zeros(finite.shape, dtype=bool)
     if suspect.any():
         singular_values = np.linalg.svd(numbers[suspect], compute_uv=False)
@@ -200,7 +200,10 @@ def _singular_faults(matrix: Array, posture: Posture) -> tuple[Fault, ...]:
         f"posture {posture.name}: the hands cannot follow the grips when steering, because the loops through the arms "
         "are singular (an arm is stretched straight, or its axes line up)"
     )
-    return refuse_single([Fault(bad, text, {}, PostureError)])
+    faults = refuse_single([Fault(bad, text, {}, PostureError)])
+    if is_jax(matrix) or suspect.any():
+        inverse = xp.linalg.inv(xp.where(xp.asarray(bad)[..., None, None], xp.nan, matrix))
+    return inverse, faults
 
 
 def slaved_bodies(posture: Posture, bicycle: Bicycle) -> SlavedBodies:
