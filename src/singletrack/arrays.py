@@ -35,7 +35,7 @@ Array: TypeAlias = Any
 
 @functools.cache
 def _numpy() -> Any:
-    import array_api_compat.numpy as xp  # noqa: PLC0415  # lazy: `import singletrack` stays light
+    import array_api_compat.numpy as xp  # lazy: `import singletrack` stays light
 
     return xp
 

@@ -50,7 +50,7 @@ class Fault:
 
     def reason(self, index: tuple[int, ...] = ()) -> str:
         """Return the reason with the values of the design at ``index``."""
-        import numpy as np  # noqa: PLC0415  # lazy: records can be made without NumPy
+        import numpy as np  # lazy: records can be made without NumPy
 
         shape = np.shape(self.bad)
         found = {name: np.broadcast_to(np.asarray(value), shape)[index] for name, value in self.values.items()}
@@ -72,7 +72,7 @@ def refuse_single(faults: Iterable[Fault], where: str = "") -> tuple[Fault, ...]
     SingletrackError
         Of the class named by the first fault, with all reasons, if the masks have no dimensions.
     """
-    import numpy as np  # noqa: PLC0415
+    import numpy as np
 
     hit = [fault for fault in faults if is_concrete(fault.bad) and np.any(np.asarray(fault.bad))]
     single = [fault for fault in hit if np.ndim(fault.bad) == 0]
@@ -84,7 +84,7 @@ def refuse_single(faults: Iterable[Fault], where: str = "") -> tuple[Fault, ...]
 
 def valid_mask(faults: Iterable[Fault], shape: tuple[int, ...] = ()) -> np.ndarray:
     """Return True for the designs that no fault hits, shape broadcast from ``shape`` and the masks."""
-    import numpy as np  # noqa: PLC0415
+    import numpy as np
 
     good = np.ones(shape, dtype=bool)
     for fault in faults:

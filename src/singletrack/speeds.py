@@ -29,7 +29,7 @@ def parse_speeds(text: str) -> np.ndarray:
     >>> parse_speeds("0:10:5").tolist(), parse_speeds("4.6").tolist()
     ([0.0, 2.5, 5.0, 7.5, 10.0], [4.6])
     """
-    import numpy as np  # noqa: PLC0415  # lazy: `import singletrack` stays light
+    import numpy as np  # lazy: `import singletrack` stays light
 
     parts = text.split(":")
     wrong = InputError(f"--speeds {text!r}: {_ALLOWED}")

@@ -69,7 +69,7 @@ class CharacteristicPolynomial:
 
     def flat(self) -> tuple[CharacteristicPolynomial, tuple[int, ...]]:
         """Return the polynomials with all designs on one axis, and the shape (...) of the batch, as NumPy arrays."""
-        import numpy as np  # noqa: PLC0415
+        import numpy as np
 
         all_five = [np.asarray(a) for a in (self.a4, self.a3, self.a2, self.a1, self.a0)]
         batch = np.broadcast_shapes(*(a.shape[:-1] for a in all_five))

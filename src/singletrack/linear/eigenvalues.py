@@ -51,7 +51,7 @@ def eigenvalues(model: CoefficientMatrices, speeds: Array) -> Array:
     [(-14.0784+0j), (-0.7753-4.4649j), (-0.7753+4.4649j), (-0.3229+0j)]
     """
     if is_jax(model.M, model.C1, model.K0, model.K2, model.gravity, speeds):
-        from singletrack.linear.quartic_jax import quartic_roots  # noqa: PLC0415  # lazy: optional
+        from singletrack.linear.quartic_jax import quartic_roots  # lazy: optional
 
         return quartic_roots(*characteristic_polynomial(model).monic_at(_one_axis(speeds)))
     v = checked_speeds(speeds)

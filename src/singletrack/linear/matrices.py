@@ -75,25 +75,25 @@ class CoefficientMatrices:
         complex array, shape (..., n, 4)
             In 1/s.
         """
-        from singletrack.linear.eigenvalues import eigenvalues  # noqa: PLC0415
+        from singletrack.linear.eigenvalues import eigenvalues
 
         return eigenvalues(self, speeds)
 
     def modes(self, speeds: Array) -> Modes:
         """Return the eigenvalues as named modes, followed through the speeds (see :class:`Modes`)."""
-        from singletrack.linear.modes import modes  # noqa: PLC0415
+        from singletrack.linear.modes import modes
 
         return modes(self, speeds)
 
     def critical_speeds(self) -> CriticalSpeeds:
         """Return weave and capsize speeds and the stable ranges (see :class:`CriticalSpeeds`)."""
-        from singletrack.linear.critical import critical_speeds  # noqa: PLC0415
+        from singletrack.linear.critical import critical_speeds
 
         return critical_speeds(self)
 
     def state_space(self, speed: float) -> StateSpace:
         """Return the equations at one forward speed in m/s as a first-order system (see :class:`StateSpace`)."""
-        from singletrack.linear.state_space import state_space  # noqa: PLC0415
+        from singletrack.linear.state_space import state_space
 
         return state_space(self, speed)
 
@@ -107,15 +107,15 @@ class CoefficientMatrices:
 
     def to_dict(self) -> dict[str, Any]:
         """Return the matrices as nested lists, in full double precision (for JSON)."""
-        import numpy as np  # noqa: PLC0415
+        import numpy as np
 
         names = ("M", "C1", "K0", "K2", "gravity")
         return {name: np.asarray(getattr(self, name), dtype=float).tolist() for name in names}
 
     def to_xarray(self) -> xarray.Dataset:
         """Return the matrices labelled; batch dimensions are called design_0, design_1, ..."""
-        import numpy as np  # noqa: PLC0415
-        import xarray as xr  # noqa: PLC0415
+        import numpy as np
+        import xarray as xr
 
         batch = [f"design_{i}" for i in range(len(self.shape))]
         units = {"M": "kg m^2", "C1": "kg m", "K0": "kg m", "K2": "kg"}
@@ -129,6 +129,6 @@ class CoefficientMatrices:
 
 
 def _matrixwise(factor: Array, matrix: Array) -> Array:
-    from singletrack.arrays import namespace  # noqa: PLC0415
+    from singletrack.arrays import namespace
 
     return namespace(factor, matrix).asarray(factor)[..., None, None]

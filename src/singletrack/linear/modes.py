@@ -81,7 +81,7 @@ class Modes:
 
     def to_xarray(self) -> xarray.Dataset:
         """Return eigenvalues and eigenmotions labelled by speed, mode and coordinate."""
-        import xarray as xr  # noqa: PLC0415  # lazy: heavy
+        import xarray as xr  # lazy: heavy
 
         batch = [f"design_{i}" for i in range(self.eigenvalues.ndim - 2)]
         return xr.Dataset(

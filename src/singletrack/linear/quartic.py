@@ -42,7 +42,7 @@ def factor(
     e: Array,
     where: Callable[..., Array],
     sqrt: Callable[[Array], Array],
-    newton_steps: int = 3,
+    newton_steps: int = 1,
 ) -> tuple[Array, Array, Array, Array, Array]:
     """Factor quartics s⁴ + b s³ + c s² + d s + e into s² + p₁ s + q₁ and s² + p₂ s + q₂, all of them real.
 
@@ -227,7 +227,7 @@ class _Kernel:
 def use_compiled() -> bool:
     """Load the compiled kernel now (for long work); return whether there is one. Both give the same bits."""
     if _Kernel.compiled is None and find_spec("numba") is not None:
-        from singletrack.linear.quartic_compiled import roots_into  # noqa: PLC0415  # lazy: heavy, optional
+        from singletrack.linear.quartic_compiled import roots_into  # lazy: heavy, optional
 
         _Kernel.compiled = roots_into
     return _Kernel.compiled is not None
@@ -244,7 +244,7 @@ def solve_into(roots: np.ndarray, b: np.ndarray, c: np.ndarray, d: np.ndarray, e
     else:
         _Kernel.compiled(roots, good, b, c, d, e)
     if not good.all():
-        from singletrack.linear.quartic_hard import solve_again  # noqa: PLC0415  # which builds on this module
+        from singletrack.linear.quartic_hard import solve_again  # which builds on this module
 
         bad = ~good
         roots[bad] = solve_again(b[bad], c[bad], d[bad], e[bad])

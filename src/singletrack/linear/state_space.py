@@ -41,7 +41,7 @@ class StateSpace:
 
     def to_control(self) -> Any:
         """Return a single design as a ``control.StateSpace`` of the python-control library, with named signals."""
-        import control  # noqa: PLC0415  # lazy: heavy
+        import control  # lazy: heavy
 
         names = list(self.states)
         return control.ss(

@@ -70,7 +70,7 @@ class Linearisation:
 
     def to_control(self) -> Any:
         """Return the state space as a ``control.StateSpace`` with named states, inputs and outputs."""
-        import control  # noqa: PLC0415  # slow to import
+        import control  # slow to import
 
         states = [*self.coordinates, *(f"{name}'" for name in self.speeds)]
         matrices = (self.A_matrix, self.B_matrix, self.C_matrix, self.D_matrix)

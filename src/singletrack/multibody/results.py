@@ -66,7 +66,7 @@ def gather(
     passages: Sequence[tuple[str, float]],
 ) -> xr.Dataset:
     """Collect the samples of a simulation into a data set (see the module's text)."""
-    import xarray as xr  # noqa: PLC0415  # slow to import
+    import xarray as xr  # slow to import
 
     if not samples or samples[0].time > times[0]:
         samples = [Sample(float(times[0]), start), *samples]

@@ -114,7 +114,7 @@ def simulate(
     >>> round(float(run.q.sel(coordinate="swing")[-1] * 1e5), 6)
     -1.0
     """
-    import scipy.integrate  # noqa: PLC0415  # slow to import
+    import scipy.integrate  # slow to import
 
     known = ("DOP853", "RK45", "RK23", "Radau", "BDF", "LSODA")
     if method not in known:
@@ -219,7 +219,7 @@ def _repartition(state: State, t: float) -> State:
 
 def _watch(run: _Run, start: float, stop: float, dense: Any, before: State) -> float:
     """Note the passages of events in a step; return where it ends, which a terminal event may bring forward."""
-    from scipy.optimize import brentq  # noqa: PLC0415  # slow to import
+    from scipy.optimize import brentq  # slow to import
 
     found = []
     for event in run.events:

@@ -66,7 +66,7 @@ def free_turns(
     >>> turns.speed.round(3).values.tolist()
     [6.024, 5.998]
     """
-    import xarray as xr  # noqa: PLC0415  # slow to import
+    import xarray as xr  # slow to import
 
     if along not in RESTING:
         raise InputError(unknown_name("angle to go along", along, RESTING))

@@ -109,7 +109,7 @@ FRAME_GEOMETRY = tuple(name for name, p in Bicycle.descriptions().items() if p.g
 
 def _inertia_faults(name: str, xx: Array, yy: Array, zz: Array, xz: Array) -> Iterator[Fault]:
     """Yield faults of an inertia tensor that is symmetric about the x-z plane: what no distribution of mass has."""
-    import numpy as np  # noqa: PLC0415
+    import numpy as np
 
     entries = (xx, yy, zz, xz)
     if not all(is_concrete(value) and np.asarray(value).dtype.kind in "iufc" for value in entries):

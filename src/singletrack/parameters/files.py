@@ -94,7 +94,7 @@ def load_any(name_or_path: str | Path) -> Bicycle | Rider:
     if not _is_there(path):
         known = [*shipped("bicycle"), *shipped("rider")]
         raise InputError(f"{unknown_name('name', str(name_or_path)[:200], known)}, and there is no such file")
-    from singletrack.parameters.formats.reading import is_rider  # noqa: PLC0415  # lazy: seldom needed
+    from singletrack.parameters.formats.reading import is_rider  # lazy: seldom needed
 
     return load_rider(path) if is_rider(read_text(path), str(path)) else load_bicycle(path)
 
@@ -113,7 +113,7 @@ def _load(cls: type[R], name_or_path: str | Path) -> R:
     path = Path(name_or_path)
     if not _is_there(path):
         raise InputError(f"{unknown_name(cls.kind, str(name_or_path)[:200], known)}, and there is no such file")
-    from singletrack.parameters.formats.reading import read_record  # noqa: PLC0415  # lazy: seldom needed
+    from singletrack.parameters.formats.reading import read_record  # lazy: seldom needed
 
     return read_record(cls, read_text(path), str(path))
 

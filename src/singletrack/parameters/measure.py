@@ -81,7 +81,7 @@ def measure(text: str, where: str, centre_fit: str = "perpendicular") -> Measure
     """
     if centre_fit not in CENTRE_FITS:
         raise InputError(unknown_name("centre_fit", centre_fit, CENTRE_FITS))
-    import numpy as np  # noqa: PLC0415
+    import numpy as np
 
     entries = read_entries(text, where)
     check_raw(entries)
@@ -132,7 +132,7 @@ def _parameters(
     m: dict[str, Any], hung: dict[str, list[str]], centre_fit: str
 ) -> tuple[dict[str, Any], dict[str, Array]]:
     """Return parameters by symbol from measurements by name, both as arrays over the steps."""
-    import numpy as np  # noqa: PLC0415
+    import numpy as np
 
     p = {letter: m[letter] for letter in ("w", "g", "mR", "mF", "mB", "mH")}
     p["rR"], p["rF"] = (m[f"d{wheel}"] / (2 * math.pi * m[f"n{wheel}"]) for wheel in "RF")
@@ -177,7 +177,7 @@ def _compound(mass: Any, gravity: Any, length: Any, period: Any) -> Any:
 
 def _least_squares(columns: Any, right: Any) -> Any:
     """Solve columns (k, steps, n) x = right (k, steps) for x (n, steps), without conjugation (complex steps)."""
-    import numpy as np  # noqa: PLC0415
+    import numpy as np
 
     normal = np.einsum("ksi,ksj->sij", columns, columns)
     rhs = np.einsum("ksi,ks->si", columns, right)
@@ -188,7 +188,7 @@ def _least_squares(columns: Any, right: Any) -> Any:
 
 def _centre(sin: Any, cos: Any, distance: Any, fit: str) -> Any:
     """Return the point (x, z) nearest to the lines sin x + cos z = distance, relative to the hub."""
-    import numpy as np  # noqa: PLC0415
+    import numpy as np
 
     columns = np.stack([sin, cos], axis=-1)
     if fit == "perpendicular":
@@ -201,7 +201,7 @@ def _centre(sin: Any, cos: Any, distance: Any, fit: str) -> Any:
 
 def _geometry(m: dict[str, Any], p: dict[str, Any]) -> dict[str, Any]:
     """Return the frame geometry that seats a rider, as far as it was measured."""
-    import numpy as np  # noqa: PLC0415
+    import numpy as np
 
     found: dict[str, Any] = {
         name: m[name] for name in ("hbb", "lcs", "lsp", "lst", "lamst", "lf", "wfh", "wrh") if name in m

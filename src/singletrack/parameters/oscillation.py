@@ -57,7 +57,7 @@ class Oscillation:
 
     def at(self, time: Array) -> np.ndarray:
         """Return the fitted signal at times (...) in s."""
-        import numpy as np  # noqa: PLC0415
+        import numpy as np
 
         t = np.asarray(time, dtype=float) - self.time[0]
         phase = 2 * math.pi * t / self.period
@@ -103,7 +103,7 @@ def fit_oscillation(time: Array, signal: Array, where: str = "signal") -> Oscill
     >>> round(fit.period, 3), fit.period_deviation < 1e-3
     (1.6, True)
     """
-    import numpy as np  # noqa: PLC0415
+    import numpy as np
 
     t, y = _checked(time, signal, where)
     start, scale = t[0], float(np.std(y))
@@ -137,8 +137,8 @@ def fit_oscillation(time: Array, signal: Array, where: str = "signal") -> Oscill
 
 def _search(t: np.ndarray, y: np.ndarray, where: str) -> tuple[float, float]:
     """Return decay in 1/s and angular frequency in rad/s of the best fit to a scaled signal."""
-    import numpy as np  # noqa: PLC0415
-    from scipy.optimize import least_squares  # noqa: PLC0415
+    import numpy as np
+    from scipy.optimize import least_squares
 
     span, frequency = float(t[-1]), _spectral_peak(t, y)
     if frequency * span < 1.5:  # periods in the record
@@ -157,7 +157,7 @@ def _search(t: np.ndarray, y: np.ndarray, where: str) -> tuple[float, float]:
 
 
 def _checked(time: Array, signal: Array, where: str) -> tuple[np.ndarray, np.ndarray]:
-    import numpy as np  # noqa: PLC0415
+    import numpy as np
 
     t, y = np.asarray(time, dtype=float), np.asarray(signal, dtype=float)
     if t.ndim != 1 or t.shape != y.shape or not _FEWEST <= len(t) <= _LONGEST:
@@ -178,7 +178,7 @@ def _checked(time: Array, signal: Array, where: str) -> tuple[np.ndarray, np.nda
 
 def _columns(t: np.ndarray, decay: float, omega: float) -> np.ndarray:
     """Return the linear model's columns: offset, cosine, sine."""
-    import numpy as np  # noqa: PLC0415
+    import numpy as np
 
     envelope = np.exp(-decay * t)
     return np.stack([np.ones_like(t), envelope * np.cos(omega * t), envelope * np.sin(omega * t)], axis=-1)
@@ -186,7 +186,7 @@ def _columns(t: np.ndarray, decay: float, omega: float) -> np.ndarray:
 
 def _spectral_peak(t: np.ndarray, y: np.ndarray) -> float:
     """Return the frequency in Hz of the largest peak of the spectrum, finely resolved."""
-    import numpy as np  # noqa: PLC0415
+    import numpy as np
 
     count = len(t)
     even = np.interp(np.linspace(t[0], t[-1], count), t, y)
@@ -202,7 +202,7 @@ def _covariance(
     t: np.ndarray, decay: float, omega: float, cosine: float, sine: float, left: np.ndarray
 ) -> tuple[np.ndarray, float, float]:
     """Return the covariance of decay and omega, the residuals' standard deviation, their correlation."""
-    import numpy as np  # noqa: PLC0415
+    import numpy as np
 
     envelope, cos, sin = np.exp(-decay * t), np.cos(omega * t), np.sin(omega * t)
     oscillation = envelope * (cosine * cos + sine * sin)
@@ -226,7 +226,7 @@ def read_signal(text: str, where: str) -> tuple[np.ndarray, np.ndarray]:
     InputError
         With file and line, for a line that is not two finite numbers.
     """
-    import numpy as np  # noqa: PLC0415
+    import numpy as np
 
     rows: list[tuple[float, float]] = []
     heading = False

@@ -135,7 +135,7 @@ class Record:
 
     def faults(self) -> tuple[Fault, ...]:
         """Return what is wrong with the values, one fault per rule, with a mask over the batch."""
-        import numpy as np  # noqa: PLC0415
+        import numpy as np
 
         # Numbers near the largest double overflow on the way to being refused.
         with np.errstate(over="ignore", invalid="ignore"):
@@ -153,7 +153,7 @@ class Record:
     @property
     def shape(self) -> tuple[int, ...]:
         """Shape of the batch of designs; () for a single one."""
-        import numpy as np  # noqa: PLC0415
+        import numpy as np
 
         return np.broadcast_shapes(*(np.shape(value) for value in self.values().values()))
 
@@ -165,7 +165,7 @@ def _faults_of_value(name: str, value: Array, description: Parameter) -> Iterato
         return
     if not is_concrete(value):
         return
-    import numpy as np  # noqa: PLC0415
+    import numpy as np
 
     array = np.asarray(value)
     if array.dtype.kind not in "iufc":

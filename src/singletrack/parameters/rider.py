@@ -110,7 +110,7 @@ class Rider(Record):
         return (self.chest_circumference - 2 * self.torso_width) / (pi - 2)
 
     def _physical_faults(self) -> Iterator[Fault]:
-        import numpy as np  # noqa: PLC0415
+        import numpy as np
 
         inputs = (self.shoulder_to_shoulder, self.upper_arm_circumference, self.chest_circumference)
         if not all(is_concrete(value) and np.asarray(value).dtype.kind in "iufc" for value in inputs):

@@ -55,7 +55,7 @@ class Quantity:
 @functools.cache
 def unit_registry() -> Any:
     """Return the pint registry of the units accepted in files and on the command line."""
-    import pint  # noqa: PLC0415  # lazy: only needed where a unit was written
+    import pint  # lazy: only needed where a unit was written
 
     registry: Any = pint.UnitRegistry(None)
     registry.load_definitions(_DEFINITIONS.strip().splitlines())
@@ -148,7 +148,7 @@ def pint_factor(found: str, text: str, unit: str) -> float:
     >>> pint_factor("12 in", "in", "m")
     0.0254
     """
-    import pint  # noqa: PLC0415  # lazy: heavy
+    import pint  # lazy: heavy
 
     unknown = f"{found!r} has an unknown unit {text!r}; allowed: {_allowed(unit)}"
     if not _UNIT_TEXT.fullmatch(text):

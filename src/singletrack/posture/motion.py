@@ -181,7 +181,7 @@ def _inverse(matrix: Array, posture: Posture) -> tuple[Array, tuple[Fault, ...]]
     xp = namespace(matrix)
     if not is_concrete(matrix):
         return xp.linalg.inv(matrix), ()
-    import numpy as np  # noqa: PLC0415
+    import numpy as np
 
     numbers = np.asarray(matrix)
     try:

@@ -91,7 +91,7 @@ def _numbered(points: np.ndarray) -> np.ndarray:
 
 
 def _side_view(axes: Axes, bicycle: Bicycle, posture: Posture, points: np.ndarray) -> None:
-    from matplotlib.patches import Circle  # noqa: PLC0415  # lazy: heavy
+    from matplotlib.patches import Circle  # lazy: heavy
 
     axes.set_aspect("equal")
     axes.axhline(0.0, color="black", lw=0.8)
@@ -122,7 +122,7 @@ def _draw_rider(
     axes: Axes, posture: Posture, points: np.ndarray, plane: tuple[int, int], colour: str, alpha: float
 ) -> None:
     """Draw limbs and torso as capsules of their own width, the head as a circle, seen along one axis."""
-    from matplotlib.patches import Circle  # noqa: PLC0415
+    from matplotlib.patches import Circle
 
     where = list(plane)
     for name, (start, end) in _LIMBS.items():
@@ -138,7 +138,7 @@ def _draw_rider(
 
 
 def _capsule(start: np.ndarray, end: np.ndarray, radius: float, colour: str, alpha: float) -> Polygon:
-    from matplotlib.patches import Polygon  # noqa: PLC0415
+    from matplotlib.patches import Polygon
 
     along = end - start
     angle = np.arctan2(along[1], along[0])

@@ -50,7 +50,7 @@ def phasor_figure(rows: list[tuple[str, Modes]], speed_index: int, title: str) -
 
 
 def _draw_phasors(axes: Axes, modes: Modes, index: int, column: int) -> None:
-    from matplotlib.patches import Circle  # noqa: PLC0415  # lazy: heavy
+    from matplotlib.patches import Circle  # lazy: heavy
 
     axes.set_aspect("equal")
     axes.set_xlim(-1.25, 1.25)

@@ -123,7 +123,7 @@ def _tubes(bicycle: Bicycle, rider: Rider | None) -> list[_Line]:
 
 
 def _points(bicycle: Bicycle, rider: Rider | None) -> np.ndarray:
-    from singletrack.body.skeleton import frame_points  # noqa: PLC0415
+    from singletrack.body.skeleton import frame_points
 
     if rider is not None:
         points: np.ndarray = skeleton(bicycle, rider).points

@@ -42,7 +42,7 @@ _PARAMETERS: Any = {
 @contextmanager
 def style() -> Iterator[None]:
     """Draw with the package's look inside this context, without touching the user's settings."""
-    import matplotlib as mpl  # noqa: PLC0415  # lazy: heavy
+    import matplotlib as mpl  # lazy: heavy
 
     with mpl.rc_context(_PARAMETERS):
         yield
@@ -50,8 +50,8 @@ def style() -> Iterator[None]:
 
 def new_figure(width: float, height: float) -> Figure:
     """Return an empty figure of a size in inches, independent of any window system."""
-    from matplotlib.backends.backend_agg import FigureCanvasAgg  # noqa: PLC0415
-    from matplotlib.figure import Figure  # noqa: PLC0415
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
 
     figure = Figure(figsize=(width, height), layout="constrained")
     FigureCanvasAgg(figure)

@@ -37,7 +37,7 @@ def run_study(
     KeyboardInterrupt
         If interrupted; said on stderr before, with how to go on.
     """
-    from rich.console import Console  # noqa: PLC0415  # lazy: heavy
+    from rich.console import Console  # lazy: heavy
 
     require_extra()
     if workers is not None and (workers < 1 or scheduler is not None):
@@ -55,7 +55,7 @@ def run_study(
 
 
 def _with_progress(study: Study, output: Path, scheduler: str | None, workers: int | None, console: Console) -> Summary:
-    from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeRemainingColumn  # noqa: PLC0415
+    from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeRemainingColumn
 
     problems = len(study.speeds)
     columns = (

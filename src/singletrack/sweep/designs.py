@@ -48,7 +48,7 @@ class Variation:
         low, high = self.numbers
         if self.kind == "uniform":
             return low + (high - low) * quantiles
-        from scipy.special import ndtri  # noqa: PLC0415  # lazy: heavy
+        from scipy.special import ndtri  # lazy: heavy
 
         # Quantiles of exactly 0 have no value: the outermost half step instead.
         values: np.ndarray = low + high * ndtri(np.clip(quantiles, 2.0**-54, 1 - 2.0**-53))
@@ -126,7 +126,7 @@ class _LatinHypercube(Designs):
 
     @cached_property
     def _table(self) -> np.ndarray:
-        from scipy.stats import qmc  # noqa: PLC0415  # lazy: heavy
+        from scipy.stats import qmc  # lazy: heavy
 
         table: np.ndarray = qmc.LatinHypercube(len(self.variations), rng=self.seed).random(self.count)
         return table
@@ -141,7 +141,7 @@ class _Sobol(Designs):
     method = "sobol"
 
     def _quantiles(self, start: int, stop: int) -> np.ndarray:
-        from scipy.stats import qmc  # noqa: PLC0415
+        from scipy.stats import qmc
 
         sequence = qmc.Sobol(len(self.variations), scramble=True, rng=self.seed)
         if start:

@@ -48,8 +48,8 @@ class Summary:
 def require_extra() -> None:
     """Raise InputError if what sweeps need besides is not installed."""
     try:
-        import distributed  # noqa: F401, PLC0415
-        import zarr  # noqa: F401, PLC0415
+        import distributed  # noqa: F401
+        import zarr  # noqa: F401
     except ImportError as error:
         raise InputError(f"sweeps need {error.name}: pip install 'singletrack[sweep]'") from None
 

@@ -139,7 +139,7 @@ class Store:
         os.fsync(self._journal.fileno())
 
     def _create(self) -> None:
-        import zarr  # noqa: PLC0415  # lazy: optional
+        import zarr  # lazy: optional
 
         shutil.rmtree(self.data, ignore_errors=True)
         group = zarr.open_group(str(self.data), mode="w", zarr_format=2)
@@ -180,7 +180,7 @@ class Store:
 
     def finish(self) -> None:
         """Write the faults of all stretches, and move the store to its place."""
-        import zarr  # noqa: PLC0415
+        import zarr
 
         group = zarr.open_group(str(self.data), mode="r+", zarr_format=2)
         lines = _journal_lines(self.partial / "journal.jsonl")[1:]
@@ -234,7 +234,7 @@ def _journal_lines(path: Path) -> list[dict[str, Any]]:
 
 def write_chunk(data: Path, start: int, arrays: dict[str, np.ndarray]) -> None:
     """Write the arrays of the designs from ``start`` on; stretches are chunks of the store, so any order will do."""
-    import zarr  # noqa: PLC0415  # lazy: optional
+    import zarr  # lazy: optional
 
     group: Any = zarr.open_group(str(data), mode="r+", zarr_format=2)
     with zarr.config.set({"array.write_empty_chunks": True}):  # looking whether they are empty takes longer
@@ -253,7 +253,7 @@ def open_sweep(path: str | Path) -> xarray.Dataset:
     InputError
         If there is no finished sweep at that path.
     """
-    import xarray as xr  # noqa: PLC0415  # lazy: heavy
+    import xarray as xr  # lazy: heavy
 
     path = Path(path)
     if not (path / ".zgroup").exists():
@@ -269,7 +269,7 @@ def open_sweep(path: str | Path) -> xarray.Dataset:
 
 
 def _unstacked(dataset: xarray.Dataset, axes: dict[str, list[float]]) -> xarray.Dataset:
-    import xarray as xr  # noqa: PLC0415
+    import xarray as xr
 
     units = {name: dict(dataset[name].attrs) for name in axes}
     shape = tuple(len(values) for values in axes.values())

@@ -92,14 +92,14 @@ def read_record(cls: type[R], text: str, where: str) -> R:
 
 
 def _bicycle_readers() -> dict[str, Callable[[str, str], Any]]:
-    from singletrack.parameters.formats.parameter_sets import read_parameter_set  # noqa: PLC0415
-    from singletrack.parameters.formats.text import read_bicycle_text  # noqa: PLC0415
-    from singletrack.parameters.measure import bicycle_from_measurements  # noqa: PLC0415
+    from singletrack.parameters.formats.parameter_sets import read_parameter_set
+    from singletrack.parameters.formats.text import read_bicycle_text
+    from singletrack.parameters.measure import bicycle_from_measurements
 
     return {"text": read_bicycle_text, "measured": bicycle_from_measurements, "yaml": read_parameter_set}
 
 
 def _rider_readers() -> dict[str, Callable[[str, str], Any]]:
-    from singletrack.parameters.formats.yeadon import read_yeadon  # noqa: PLC0415
+    from singletrack.parameters.formats.yeadon import read_yeadon
 
     return {"yeadon": read_yeadon}

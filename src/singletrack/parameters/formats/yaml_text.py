@@ -36,7 +36,7 @@ def read_mapping(text: str, where: str) -> dict[str, Item]:
     InputError
         With file and line, if it is no YAML, no mapping, has a name twice, lists, tags or references.
     """
-    import yaml  # noqa: PLC0415  # lazy: only needed for these files
+    import yaml  # lazy: only needed for these files
 
     if len(text) > _LONGEST:
         raise InputError(f"{where}: has {len(text)} characters, must have at most {_LONGEST}")

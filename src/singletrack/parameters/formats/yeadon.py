@@ -161,12 +161,12 @@ def _checked(entries: Entries) -> tuple[dict[str, float], float | None]:
 
 def _human(entries: Entries, metres: dict[str, float], mass: float | None) -> Any:
     try:
-        import yeadon  # noqa: PLC0415  # optional
+        import yeadon  # optional
     except ImportError:
         raise InputError(
             f"{entries.where}: reading Yeadon's measurements needs yeadon: pip install 'singletrack[yeadon]'"
         ) from None
-    import numpy as np  # noqa: PLC0415
+    import numpy as np
 
     # The package prints and warns about odd cross sections and raises errors of all kinds.
     try:
