@@ -59,19 +59,19 @@ def _with_progress(study: Study, output: Path, scheduler: str | None, workers: i
 
     problems = len(study.speeds)
     columns = (
-        TextColumn("{task.description}"),
-        BarColumn(),
+        BarColumn(bar_width=12),
         TaskProgressColumn(),
-        TextColumn("{task.completed:,.0f} of {task.total:,.0f} designs"),
+        TextColumn("{task.completed:,.0f} of {task.total:,.0f}"),
         TextColumn("{task.fields[rate]}"),
-        TimeRemainingColumn(),
-    )
+        TimeRemainingColumn(compact=True),
+    )  # fits a terminal of 80 columns, time left included
+    console.print(f"{study.name}: {study.designs.count:,} designs x {problems:,} speeds")
     with Progress(*columns, console=console) as bar:
         task = bar.add_task(study.name, total=study.designs.count, rate="")
 
         def progress(done: int, resumed: int) -> None:
             speed = bar.tasks[0].speed or bar.tasks[0].finished_speed
-            rate = f"{speed * problems:,.0f} eigenproblems/s" if speed and done > resumed else ""
+            rate = f"{speed * problems:,.0f} problems/s" if speed and done > resumed else ""
             bar.update(task, completed=done, rate=rate)
 
         return run_sweep(study, output, scheduler, workers, progress)
