@@ -28,7 +28,7 @@ from singletrack.parameters import shipped
 from singletrack.posture import seat
 
 NAMES = ("M", "C1", "K0", "K2")
-SEATS = [("rigid", None), ("upright", None), ("leaned", "abduction"), ("leaned", "axial")]
+SEATS = [("rigid", None), ("upright", None), ("upright", "abduction"), ("leaned", "abduction"), ("leaned", "axial")]
 
 
 def assert_engines_agree(bicycle: Any, rider: Any, posture: Any, shoulder: Any = None) -> Any:

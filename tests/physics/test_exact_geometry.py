@@ -39,7 +39,12 @@ def test_k0_with_a_rider_is_the_hessian_of_the_height(name, posture):
 
 @pytest.mark.parametrize(
     ("name", "posture", "shoulder"),
-    [("stratos", "leaned", "axial"), ("stratos", "leaned", None), ("browser", "upright", None)],
+    [
+        ("stratos", "leaned", "axial"),
+        ("stratos", "leaned", None),
+        ("browser", "upright", None),
+        ("browser", "upright", "abduction"),
+    ],
 )
 def test_motion_of_the_segments_to_second_order(name, posture, shoulder):
     """J, H and w against differences of exactly closed loops."""

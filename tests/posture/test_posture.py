@@ -75,8 +75,12 @@ def test_shoulder_axes_differ():
     bicycle = load_bicycle("stratos")
     assert seat(bicycle, RIDER, "leaned").shoulder == "abduction"
     assert seat(bicycle, RIDER, "upright").shoulder == "axial"
-    with pytest.raises(InputError, match="does not go with posture upright"):
-        seat(bicycle, RIDER, "upright", "abduction")
+    other = seat(bicycle, RIDER, "upright", "abduction")
+    assert [joint.name for joint in other.joints][:3] == [
+        "right shoulder flexion",
+        "right shoulder abduction",
+        "right elbow",
+    ]
 
 
 def test_unknown_names():

@@ -4,7 +4,7 @@
     Hands free; all segments stay with the frame (Whipple's rider).
 ``upright``
     Torso and head stay with the frame. Shoulder: flexion about y, then rotation about the upper arm's own axis.
-    Elbow: hinge about y. Hand: ball joint at the grip.
+    Elbow: hinge about y. Hand: ball joint at the grip. (``shoulder="abduction"``: as in ``leaned``.)
 ``leaned``
     Torso and head pitch about y through the hips, then twist about the hip-shoulder line. Elbows are locked.
     Shoulder: flexion about y, then abduction about the axis normal to y and to the shoulder-grip line
@@ -139,12 +139,7 @@ def seat(bicycle: Bicycle, rider: Rider, posture: str = "rigid", shoulder: str |
     segments = rider_segments(rider, points)
     chosen = shoulder or _DEFAULT_SHOULDER.get(posture, "")
     if posture == "upright":
-        if chosen != "axial":
-            raise InputError(
-                "shoulder = 'abduction' does not go with posture upright, whose bent elbow turns about the same axis "
-                "as the shoulder flexes: the hand could not follow the grip sideways; allowed: axial"
-            )
-        return _upright(points, segments)
+        return _upright(points, segments, chosen)
     if posture == "leaned":
         return _leaned(points, segments, chosen)
     return Posture("rigid", "", points, segments, carried_by={})
@@ -154,21 +149,30 @@ def _y() -> Array:
     return vector(0.0, 1.0, 0.0)
 
 
-def _upright(points: Skeleton, segments: dict[str, Segment]) -> Posture:
+def _second_axis(kind: str, shoulder: Array, elbow: Array, grip: Array) -> tuple[str, Array]:
+    """Return what the shoulder does about its second axis, and that axis' unit vector (..., 3)."""
+    if kind == "axial":
+        return "rotation", unit_vector(elbow - shoulder)
+    along = unit_vector(grip - shoulder)
+    return "abduction", vector(-along[..., 2], 0.0, along[..., 0])
+
+
+def _upright(points: Skeleton, segments: dict[str, Segment], shoulder_kind: str) -> Posture:
     joints: list[Joint] = []
     loops: list[Loop] = []
     carried: dict[str, str] = {}
     for side, arm in _ARMS.items():
         shoulder, elbow, grip = (points[arm[place]] for place in ("shoulder", "elbow", "grip"))
-        flexion, rotation, hinge = f"{side} shoulder flexion", f"{side} shoulder rotation", f"{side} elbow"
+        second, axis = _second_axis(shoulder_kind, shoulder, elbow, grip)
+        flexion, turning, hinge = f"{side} shoulder flexion", f"{side} shoulder {second}", f"{side} elbow"
         joints += [
             Joint(flexion, "", shoulder, _y()),
-            Joint(rotation, flexion, shoulder, unit_vector(elbow - shoulder)),
-            Joint(hinge, rotation, elbow, _y()),
+            Joint(turning, flexion, shoulder, axis),
+            Joint(hinge, turning, elbow, _y()),
         ]
         loops.append(Loop(f"{side} hand", hinge, grip))
-        carried |= {f"{side}_upper_arm": rotation, f"{side}_lower_arm": hinge}
-    return Posture("upright", "axial", points, segments, tuple(joints), tuple(loops), carried)
+        carried |= {f"{side}_upper_arm": turning, f"{side}_lower_arm": hinge}
+    return Posture("upright", shoulder_kind, points, segments, tuple(joints), tuple(loops), carried)
 
 
 def _leaned(points: Skeleton, segments: dict[str, Segment], shoulder_kind: str) -> Posture:
@@ -178,11 +182,7 @@ def _leaned(points: Skeleton, segments: dict[str, Segment], shoulder_kind: str) 
     carried = {"torso": twist.name, "head": twist.name}
     for side, arm in _ARMS.items():
         shoulder, elbow, grip = (points[arm[place]] for place in ("shoulder", "elbow", "grip"))
-        if shoulder_kind == "axial":
-            second, axis = "rotation", unit_vector(elbow - shoulder)
-        else:
-            along = unit_vector(grip - shoulder)
-            second, axis = "abduction", vector(-along[..., 2], 0.0, along[..., 0])
+        second, axis = _second_axis(shoulder_kind, shoulder, elbow, grip)
         flexion = Joint(f"{side} shoulder flexion", twist.name, shoulder, _y())
         joints += [flexion, Joint(f"{side} shoulder {second}", flexion.name, shoulder, axis)]
         loops.append(Loop(f"{side} hand", joints[-1].name, grip))
