@@ -42,7 +42,8 @@ def test_python():
 
 def test_verdicts():
     claims = check_claims(paper_cases())
-    assert f"({sum(claim.holds for claim in claims)} of {len(claims)} hold" in README.read_text()
+    holds, partly = (sum(claim.verdict == verdict for claim in claims) for verdict in ("holds", "holds in part"))
+    assert f"({holds} of {len(claims)} hold, {partly} in part;" in README.read_text()
 
 
 def test_links():

@@ -21,7 +21,7 @@ EXPECTED_TO_FAIL = (
     "Stratos, leaned rider: g K0(2, 2)",
     "The off-diagonal terms of K0",
     "The added mass decreases the weave frequencies",
-    "The added stiffness",
+    "The changed stiffness increases the weave frequencies",
 )
 
 
@@ -76,7 +76,7 @@ def test_report_holds_every_claim(output):
     html, markdown = (output / "report.html").read_text(), (output / "report.md").read_text()
     for claim in check_claims(paper_cases()):
         assert claim.computed.replace("|", "\\|") in markdown
-        assert ("holds" if claim.holds else "does not hold") in html
+        assert claim.verdict in html
     for link in re.findall(r"\]\((figures/[^)]*)\)", markdown):
         assert (output / link).is_file()
 

@@ -29,6 +29,8 @@ class Claim:
     holds : bool
     note : str
         Why not, or what else is worth knowing.
+    partly : bool
+        Whether a claim that does not hold as a whole holds over part of the speeds.
     """
 
     section: str
@@ -36,6 +38,12 @@ class Claim:
     computed: str
     holds: bool
     note: str = ""
+    partly: bool = False
+
+    @property
+    def verdict(self) -> str:
+        """The verdict in words."""
+        return "holds" if self.holds else ("holds in part" if self.partly else "does not hold")
 
 
 def printed_number_holds(printed: str, value: float) -> bool:

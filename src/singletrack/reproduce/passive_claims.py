@@ -32,7 +32,7 @@ def _leaned(cases: dict[str, Case]) -> list[Claim]:
     off, rigid_off = leaned.model.M[0, 1], rigid.model.M[0, 1]
     k_off, rigid_k_off = (model.gravity * model.K0[0, 1] for model in (leaned.model, rigid.model))
     axial_k_off = 9.81 * cases["stratos-leaned-axial"].model.K0[0, 1]
-    slower = _frequency_comparison(rigid.modes.eigenvalues, leaned.modes.eigenvalues)
+    slower = _frequency_changes(rigid.modes.eigenvalues, leaned.modes.eigenvalues)
     return [
         Claim(
             "3.1",
@@ -48,7 +48,7 @@ def _leaned(cases: dict[str, Case]) -> list[Claim]:
             f"{low:.3f} to {high:.3f} m/s, from {rigid_low:.3f} to {rigid_high:.3f} m/s",
             bool(low > rigid_low and high > rigid_high),
         ),
-        Claim("3.1", "The frequency of the weave motion goes down", slower[0], slower[1]),
+        _frequency_claim("The frequency of the weave motion goes down", slower, -1),
         Claim(
             "3.1",
             "The off-diagonal terms of M increase slightly",
@@ -72,58 +72,63 @@ def _leaned(cases: dict[str, Case]) -> list[Claim]:
     ]
 
 
-def _frequency_comparison(reference: np.ndarray, other: np.ndarray) -> tuple[str, bool]:
+def _frequency_changes(reference: np.ndarray, other: np.ndarray) -> np.ndarray:
+    """Return the relative changes of the weave frequency at the speeds from 1 m/s on where both oscillate."""
     both = (reference[:, 0].imag > 0) & (other[:, 0].imag > 0) & (SPEEDS >= 1.0)
-    change = other[both, 0].imag / reference[both, 0].imag - 1
-    text = f"{change.min():+.1%} to {change.max():+.1%} over 1 to 10 m/s"
-    return text, bool((change < 0).all())
+    change: np.ndarray = other[both, 0].imag / reference[both, 0].imag - 1
+    return change
+
+
+def _frequency_claim(says: str, changes: np.ndarray, sign: int, note: str = "") -> Claim:
+    """Return a claim that the weave frequency changes in the direction of ``sign``."""
+    agree = np.sign(changes) == sign
+    found = f"{changes.min():+.1%} to {changes.max():+.1%} over 1 to 10 m/s"
+    if not agree.all():
+        way = "up" if sign > 0 else "down"
+        found += f", {way} at {agree.mean():.0%} of these speeds, {changes.mean():+.1%} on average"
+    holds = bool(agree.all())
+    return Claim("3.1", says, found, holds, "" if holds else note, partly=bool(agree.mean() > 0.25))
 
 
 def _leaned_causes(cases: dict[str, Case]) -> list[Claim]:
     """Section 3.1 explains the change by two causes; each is tried alone."""
-    rigid, leaned = cases["stratos-rigid"].model, cases["stratos-leaned"].model
-    heavier = replace(rigid, M=leaned.M)
-    stiffer = replace(rigid, K0=leaned.K0)
-    base = cases["stratos-rigid"]
-    claims = []
+    base, leaned = cases["stratos-rigid"], cases["stratos-leaned"].model
+    heavier, stiffer = replace(base.model, M=leaned.M), replace(base.model, K0=leaned.K0)
+    roots = base.modes.eigenvalues
     weave = heavier.critical_speeds().weave
-    slower = _frequency_comparison(base.modes.eigenvalues, heavier.modes(SPEEDS).eigenvalues)
-    claims.append(
+    critical = stiffer.critical_speeds()
+    # Without a capsize speed the range has no upper end: the capsize speed has risen beyond all speeds.
+    unbounded = bool(critical.stable_ranges and np.isinf(critical.stable_ranges[-1][1]))
+    before = f"from {base.critical.capsize[0]:.3f} m/s"
+    found = f"{critical.capsize[0]:.3f} m/s, {before}" if critical.capsize else f"no capsize at any speed, {before}"
+    return [
         Claim(
             "3.1",
             "The added mass (the leaned rider's M alone) increases the weave speed",
             f"{weave[0]:.3f} m/s, from {base.critical.weave[0]:.3f} m/s" if weave else "never stable",
             bool(weave and weave[0] > base.critical.weave[0]),
-        )
-    )
-    mass_note = (
-        "" if slower[1] else "The frequency falls at low speed, where most of the change is, and rises at high speed."
-    )
-    claims.append(
-        Claim("3.1", "The added mass decreases the weave frequencies overall", slower[0], slower[1], mass_note)
-    )
-    capsize = stiffer.critical_speeds().capsize
-    faster = _frequency_comparison(base.modes.eigenvalues, stiffer.modes(SPEEDS).eigenvalues)
-    note = (
-        "The paper explains this by a stiffness that rises from -6.8 to -3.2; from its data it falls to -9.4 N m/rad "
-        "(see above), and the effect of K0 alone is the reverse."
-    )
-    up = bool(capsize and capsize[0] > base.critical.capsize[0])
-    found = f"{capsize[0]:.3f} m/s, from {base.critical.capsize[0]:.3f} m/s" if capsize else "never"
-    claims.append(
-        Claim("3.1", "The added stiffness (K0 alone) increases the capsize speed", found, up, "" if up else note)
-    )
-    rises = faster[0].startswith("+")
-    claims.append(
+        ),
+        _frequency_claim(
+            "The added mass decreases the weave frequencies overall",
+            _frequency_changes(roots, heavier.modes(SPEEDS).eigenvalues),
+            -1,
+            "The frequency falls at low speed, where most of the change is, and rises at high speed.",
+        ),
         Claim(
             "3.1",
-            "The added stiffness increases the weave frequencies overall",
-            faster[0],
-            rises,
-            "" if rises else note,
-        )
-    )
-    return claims
+            "The changed stiffness (the leaned rider's K0 alone) increases the capsize speed",
+            found,
+            unbounded or bool(critical.capsize and critical.capsize[0] > base.critical.capsize[0]),
+            "From the paper's data g K0(2, 2) falls to -9.4 N m/rad (see above), where the paper has it rise to -3.2; "
+            "the effect on the capsize speed is as the paper says all the same.",
+        ),
+        _frequency_claim(
+            "The changed stiffness increases the weave frequencies overall",
+            _frequency_changes(roots, stiffer.modes(SPEEDS).eigenvalues),
+            1,
+            "It is lower near the speed at which the pair emerges and, by a little, above 7 m/s.",
+        ),
+    ]
 
 
 def _arm_direction(case: Case) -> list[Claim]:

@@ -43,10 +43,6 @@ class Picture:
     png: bytes = b""
 
 
-def _verdict(claim: Claim) -> str:
-    return "holds" if claim.holds else "does not hold"
-
-
 def _agreement_cells(agreement: Agreement) -> list[str]:
     force = agreement.hand_force
     hands = "hands free" if force is None else f"{force[0]:.1f} N, {force[1]:.1f} N"
@@ -54,8 +50,8 @@ def _agreement_cells(agreement: Agreement) -> list[str]:
 
 
 def _summary(claims: list[Claim]) -> str:
-    good = sum(claim.holds for claim in claims)
-    return f"{good} of {len(claims)} statements hold."
+    good, partly = (sum(claim.verdict == verdict for claim in claims) for verdict in ("holds", "holds in part"))
+    return f"{good} of {len(claims)} statements hold, {partly} hold in part."
 
 
 def _made() -> str:
@@ -77,7 +73,7 @@ def markdown_report(
     lines = [f"# {_TITLE}", "", _INTRODUCTION, "", _made(), "", "## The paper and the computation", ""]
     lines += [_summary(claims), "", "| " + " | ".join(_CLAIM_HEADER) + " |", "|---" * len(_CLAIM_HEADER) + "|"]
     for claim in claims:
-        cells = (claim.section, claim.says, claim.computed, f"**{_verdict(claim)}**", claim.note)
+        cells = (claim.section, claim.says, claim.computed, f"**{claim.verdict}**", claim.note)
         lines.append("| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |")
     lines += ["", "## Two derivations", "", _ENGINES, "", "| " + " | ".join(_AGREEMENT_HEADER) + " |"]
     lines.append("|---" * len(_AGREEMENT_HEADER) + "|")
@@ -136,7 +132,7 @@ def _html_claims(claims: list[Claim]) -> str:
             escape(claim.section),
             escape(claim.says),
             escape(claim.computed),
-            f'<span class="{"holds" if claim.holds else "fails"}">{_verdict(claim)}</span>',
+            f'<span class="{"holds" if claim.holds else "fails"}">{claim.verdict}</span>',
             escape(claim.note),
         ]
         for claim in claims

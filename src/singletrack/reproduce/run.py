@@ -143,7 +143,7 @@ def _write_tables(output: Path, cases: dict[str, Case], claims: list[Claim]) -> 
     write_whole(
         tables / "claims.csv",
         write_csv(
-            ["section", "paper", "computed", "holds", "note"],
-            ([claim.section, claim.says, claim.computed, claim.holds, claim.note] for claim in claims),
+            ["section", "paper", "computed", "verdict", "note"],
+            ([claim.section, claim.says, claim.computed, claim.verdict, claim.note] for claim in claims),
         ),
     )
