@@ -45,7 +45,7 @@ def test_printed_critical_speeds():
     ],
 )
 def test_values_agreed_before(bicycle, posture, options, m22, k22):
-    """Numbers found by several people independently from the paper's data."""
+    """Reference values for the paper's data that were fixed before this code was written."""
     computed = model(bicycle, posture, **options)
     assert f"{computed.M[1, 1]:.4f}" == m22
     assert f"{computed.gravity * computed.K0[1, 1]:.4f}" == k22
