@@ -11,7 +11,7 @@ import mpmath
 import numpy as np
 
 from bench_batches import random_pencils
-from singletrack.linear.quartic import quartic_roots
+from singletrack.linear.quartic.solve import quartic_roots
 
 EPS = np.finfo(float).eps
 COUNT, WORST = 1_000_000, 200

@@ -13,7 +13,7 @@ import pytest
 
 import peers
 from singletrack import coefficients, load_bicycle, load_rider
-from singletrack.linear import quartic
+from singletrack.linear.quartic import solve as quartic
 
 SPEEDS = np.linspace(0.0, 10.0, 101)
 

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from singletrack import cli
+from singletrack.commands import app as cli
 from singletrack.reproduce.cases import paper_cases
 from singletrack.reproduce.claims import check_claims
 

@@ -11,12 +11,12 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from singletrack.errors import InputError, PostureError, SingletrackError
+from singletrack.version import __version__
 
 if TYPE_CHECKING:
-    from singletrack.linear import CoefficientMatrices, coefficients
-    from singletrack.parameters import Bicycle, Rider, load_bicycle, load_rider
-
-__version__ = "0.1.0"
+    from singletrack.library import load_bicycle, load_rider
+    from singletrack.parameters import Bicycle, Rider
+    from singletrack.public import CoefficientMatrices, coefficients
 
 __all__ = [
     "Bicycle",
@@ -34,11 +34,11 @@ __all__ = [
 # Where each public name lives; loaded on first use, so that `import singletrack` stays light.
 _LAZY = {
     "Bicycle": "singletrack.parameters",
-    "CoefficientMatrices": "singletrack.linear",
+    "CoefficientMatrices": "singletrack.public",
     "Rider": "singletrack.parameters",
-    "coefficients": "singletrack.linear",
-    "load_bicycle": "singletrack.parameters",
-    "load_rider": "singletrack.parameters",
+    "coefficients": "singletrack.public",
+    "load_bicycle": "singletrack.library",
+    "load_rider": "singletrack.library",
 }
 
 

@@ -1,6 +1,6 @@
 """``python -m singletrack``: the command line."""
 
-from singletrack.cli import main
+from singletrack.commands.app import main
 
 if __name__ == "__main__":
     main()

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from singletrack import InputError, coefficients, load_bicycle, load_rider
+from singletrack import InputError, coefficients, linear, load_bicycle, load_rider
 from singletrack.analysis.derivatives import derivatives
 
 CASES = [
@@ -46,7 +46,7 @@ def test_eigenvalues_and_critical_speeds_against_differences(which):
     names = ["trail", "steer_axis_tilt", "front_frame_mass", "gravity", "rear_wheel_inertia_yy"]
     slopes = derivatives(bike, person, posture, shoulder, names)
     speeds = np.array([0.7, 3.3, 7.1])
-    roots = slopes.model.eigenvalues(speeds)
+    roots = linear.eigenvalues(slopes.model, speeds)
     found = slopes.eigenvalues(speeds[:, None], roots)
     for i, name in enumerate(names):
         value = getattr(bike, name)
@@ -57,7 +57,7 @@ def test_eigenvalues_and_critical_speeds_against_differences(which):
         for kind in ("weave", "capsize"):
             critical = [np.asarray(getattr(end.critical_speeds(), kind)) for end in ends]
             expected = (critical[0] - critical[1]) / (2 * step)
-            own = slopes.critical_speeds(getattr(slopes.model.critical_speeds(), kind), kind)[:, i]
+            own = slopes.critical_speeds(getattr(linear.critical_speeds(slopes.model), kind), kind)[:, i]
             np.testing.assert_allclose(own, expected, rtol=1e-4, atol=1e-6)
 
 
@@ -65,7 +65,7 @@ def test_gravity_and_speed_scale_as_they_must():
     # Froude: eigenvalues grow with sqrt(g) when the speed does; so v d/dv + 2 g d/dg of s is s.
     slopes = derivatives(load_bicycle("benchmark"), names=["gravity"])
     speeds = np.array([1.0, 4.5, 8.0])[:, None]
-    roots = slopes.model.modes(speeds[:, 0]).eigenvalues
+    roots = linear.modes(slopes.model, speeds[:, 0]).eigenvalues
     total = speeds * slopes.eigenvalues_by_speed(speeds, roots) + 2 * 9.81 * slopes.eigenvalues(speeds, roots)[..., 0]
     np.testing.assert_allclose(total, roots, rtol=1e-9)
 

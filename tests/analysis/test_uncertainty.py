@@ -5,8 +5,9 @@ import pytest
 
 from singletrack import InputError, coefficients, load_bicycle, load_rider
 from singletrack.analysis.uncertainty import eigenvalue_uncertainty, linear_uncertainty, sample_designs
-from singletrack.parameters.files import read_text
-from singletrack.parameters.measure import measure
+from singletrack.library.load import read_text
+from singletrack.linear import modes
+from singletrack.measuring.pendulums import measure
 
 # About what a tape measure and a scale give.
 DEVIATIONS = {
@@ -93,7 +94,7 @@ def test_where_roots_meet_the_sample_takes_over():
 def test_the_central_95_percent_hold_95_percent():
     bicycle = measured_like()
     linear = linear_uncertainty(bicycle).eigenvalues([6.0])
-    fresh = sample_designs(bicycle, samples=4000, seed=11).model.modes([6.0]).eigenvalues[:, 0]
+    fresh = modes(sample_designs(bicycle, samples=4000, seed=11).model, [6.0]).eigenvalues[:, 0]
     low, high = linear.real_interval[:, 0]
     inside = ((fresh.real > low) & (fresh.real < high)).mean(axis=0)
     np.testing.assert_allclose(inside, 0.95, atol=0.015)

@@ -10,8 +10,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from singletrack import InputError, PostureError, load_bicycle, load_rider
-from singletrack.body import Body, combine, rider_segments, skeleton
-from singletrack.body.solids import cylinder_inertia, prism_inertia, sphere_inertia
+from singletrack.body import rider_segments, skeleton
+from singletrack.mechanics import Body, combine
+from singletrack.mechanics.solids import cylinder_inertia, prism_inertia, sphere_inertia
 
 RIDER = load_rider("rider-a")
 

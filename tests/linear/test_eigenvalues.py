@@ -90,8 +90,8 @@ def test_state_space_has_the_same_eigenvalues(combination):
 
 def test_state_space_goes_to_python_control():
     system = coefficients(load_bicycle("benchmark")).state_space(5.0).to_control()
-    assert system.input_labels == ["lean_torque", "steer_torque"]
-    assert system.state_labels == ["lean", "steer", "lean_rate", "steer_rate"]
+    assert system.input_labels == ["lean torque", "steer torque"]
+    assert system.state_labels == ["lean", "steer", "lean rate", "steer rate"]
 
 
 def test_shapes_of_a_batch():

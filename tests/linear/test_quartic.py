@@ -11,8 +11,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from singletrack.linear import quartic
-from singletrack.linear.quartic import quartic_roots
+from singletrack.linear.quartic import solve as quartic
+from singletrack.linear.quartic.solve import quartic_roots
 
 if TYPE_CHECKING:
     from singletrack import CoefficientMatrices
@@ -175,7 +175,7 @@ def test_compiled_kernel_comes_when_it_pays(monkeypatch: pytest.MonkeyPatch) -> 
 
 def test_jax_finds_the_same_roots() -> None:
     jax = pytest.importorskip("jax")
-    from singletrack.linear.quartic_jax import quartic_roots as by_jax
+    from singletrack.linear.quartic.jax import quartic_roots as by_jax
 
     few = np.concatenate([family[:, :100] for name, family in HARD.items() if "triple" not in name], axis=1)
     with double_precision(jax):

@@ -7,7 +7,7 @@ import pytest
 from singletrack import InputError, load_bicycle, load_rider
 from singletrack.body.reach import reach, seat_oddities
 from singletrack.body.skeleton import skeleton
-from singletrack.parameters import shipped
+from singletrack.library import shipped
 from singletrack.parameters.plausibility import oddities
 
 

@@ -14,8 +14,8 @@ import numpy as np
 import pytest
 
 from singletrack import InputError, SingletrackError, coefficients, load_bicycle, load_rider
+from singletrack.commands.sweep import run_study
 from singletrack.sweep import chunks, load_study, open_sweep, run_sweep
-from singletrack.sweep.command import run_study
 
 pytest.importorskip("zarr")
 pytest.importorskip("distributed")

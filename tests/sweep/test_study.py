@@ -57,7 +57,7 @@ def test_a_study_is_read_with_units(tmp_path: Path) -> None:
 
 
 def test_bicycles_beside_the_study_file(tmp_path: Path) -> None:
-    from singletrack.parameters import shipped
+    from singletrack.library import shipped
 
     (tmp_path / "mine.toml").write_text(shipped("bicycle")["browser"].read_text())
     text = GOOD.replace('"browser"', '"mine.toml"').replace("[vary]", '[vary]\nforward_lean_angle = ["80 deg"]')

@@ -7,8 +7,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from singletrack.closed_form import coefficients
 from singletrack.errors import InputError
-from singletrack.linear import CoefficientMatrices, coefficients
+from singletrack.linear import eigenvalues
+from singletrack.model import LinearModel
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -28,7 +30,7 @@ class Derivatives:
 
     Attributes
     ----------
-    model : CoefficientMatrices
+    model : LinearModel
         Of shape (2, 2) each.
     names : tuple of str
         The k parameters.
@@ -38,7 +40,7 @@ class Derivatives:
         Derivative of gravity: one for gravity itself, else zero.
     """
 
-    model: CoefficientMatrices
+    model: LinearModel
     names: tuple[str, ...]
     matrices: dict[str, np.ndarray]
     gravity: np.ndarray
@@ -90,7 +92,7 @@ class Derivatives:
         v = np.atleast_1d(np.asarray(speeds, dtype=float))
         roots = np.zeros(len(v), dtype=complex)
         if kind == "weave" and len(v):
-            all_roots = self.model.eigenvalues(v)
+            all_roots = eigenvalues(self.model, v)
             distance = np.where(all_roots.imag > 0, np.abs(all_roots.real), np.inf)
             nearest = np.take_along_axis(all_roots, distance.argmin(-1)[:, None], axis=-1)[:, 0]
             roots = 1j * nearest.imag

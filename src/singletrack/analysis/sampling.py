@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from singletrack import linear
 from singletrack.analysis.derivatives import shifted
 from singletrack.analysis.spreads import (
     CriticalSpeedUncertainty,
@@ -17,8 +18,9 @@ from singletrack.analysis.spreads import (
     seated,
     whole_batch,
 )
+from singletrack.closed_form import coefficients
 from singletrack.errors import InputError
-from singletrack.linear import CoefficientMatrices, coefficients
+from singletrack.model import LinearModel
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -37,28 +39,28 @@ class Sample:
 
     Attributes
     ----------
-    nominal : CoefficientMatrices
+    nominal : LinearModel
         Of the design as given.
-    model : CoefficientMatrices
+    model : LinearModel
         Of the n designs that can exist, shape (n, 2, 2) each.
     drawn : int
         How many were drawn; those that no body can be or in which the rider does not reach are left out.
     """
 
-    nominal: CoefficientMatrices
-    model: CoefficientMatrices
+    nominal: LinearModel
+    model: LinearModel
     drawn: int
 
     def eigenvalues(self, speeds: Array) -> EigenvalueUncertainty:
         """Return the modes' eigenvalues at speeds (n,) in m/s with the spread of the sample."""
-        nominal = self.nominal.modes(speeds)
-        parts = [chunk.modes(speeds).eigenvalues for chunk in chunks(self.model)]
+        nominal = linear.modes(self.nominal, speeds)
+        parts = [linear.modes(chunk, speeds).eigenvalues for chunk in chunks(self.model)]
         roots = np.concatenate(parts)
         intervals = [np.quantile(part, (0.025, 0.975), axis=0) for part in (roots.real, roots.imag)]
         real, imaginary = roots.real.std(axis=0, ddof=1), roots.imag.std(axis=0, ddof=1)
-        linear = np.zeros(real.shape, dtype=bool)
+        never_linear = np.zeros(real.shape, dtype=bool)
         return EigenvalueUncertainty(
-            nominal.speeds, nominal.eigenvalues, real, imaginary, intervals[0], intervals[1], linear
+            nominal.speeds, nominal.eigenvalues, real, imaginary, intervals[0], intervals[1], never_linear
         )
 
     def critical_speeds(self) -> CriticalSpeedUncertainty:
@@ -66,7 +68,7 @@ class Sample:
 
         Where designs of the sample lack a speed the others have, the spread is that of the ones that have it.
         """
-        own, drawn = self.nominal.critical_speeds(), self.model.critical_speeds()
+        own, drawn = linear.critical_speeds(self.nominal), linear.critical_speeds(self.model)
         weave, capsize = np.asarray(own.weave), np.asarray(own.capsize)
         spread = [
             np.nanstd(speeds[:, : len(values)], axis=0, ddof=1)
@@ -123,5 +125,5 @@ def sample_designs(
     gravity = np.broadcast_to(np.asarray(moved.gravity, dtype=float), (samples,))[good]
     whole = whole_batch(moved, samples)
     M, C1, K0, K2, gravity = (a[good] for a in (whole.M, whole.C1, whole.K0, whole.K2, whole.gravity))
-    kept = CoefficientMatrices(M, C1, K0, K2, gravity)
+    kept = LinearModel(M, C1, K0, K2, gravity)
     return Sample(coefficients(bicycle, rider, posture, shoulder), kept, samples)

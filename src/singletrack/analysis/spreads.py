@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from singletrack.errors import InputError
-from singletrack.linear import CoefficientMatrices
+from singletrack.model import LinearModel
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -74,20 +74,20 @@ class CriticalSpeedUncertainty:
     capsize_deviation: np.ndarray
 
 
-def chunks(model: CoefficientMatrices) -> list[CoefficientMatrices]:
+def chunks(model: LinearModel) -> list[LinearModel]:
     """Return a batch in pieces that keep temporary arrays small."""
     whole = whole_batch(model, model.shape[0])
     M, C1, K0, K2, gravity = whole.M, whole.C1, whole.K0, whole.K2, whole.gravity
     pieces = [slice(i, i + _CHUNK) for i in range(0, model.shape[0], _CHUNK)]
-    return [CoefficientMatrices(M[p], C1[p], K0[p], K2[p], gravity[p]) for p in pieces]
+    return [LinearModel(M[p], C1[p], K0[p], K2[p], gravity[p]) for p in pieces]
 
 
-def whole_batch(model: CoefficientMatrices, count: int) -> CoefficientMatrices:
+def whole_batch(model: LinearModel, count: int) -> LinearModel:
     """Return a batch of n designs in full: a matrix that depends on no uncertain parameter comes without the batch."""
     matrices = (np.broadcast_to(matrix, (count, 2, 2)) for matrix in (model.M, model.C1, model.K0, model.K2))
     M, C1, K0, K2 = matrices
     gravity = np.broadcast_to(np.asarray(model.gravity, dtype=float), (count,))
-    return CoefficientMatrices(M, C1, K0, K2, gravity, faults=model.faults)
+    return LinearModel(M, C1, K0, K2, gravity, faults=model.faults)
 
 
 def covariance_root(covariance: np.ndarray) -> np.ndarray:

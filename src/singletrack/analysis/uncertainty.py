@@ -22,7 +22,10 @@ from singletrack.analysis.spreads import (
     seated,
     whole_batch,
 )
-from singletrack.linear import CoefficientMatrices, coefficients
+from singletrack.closed_form import coefficients
+from singletrack.linear import critical_speeds
+from singletrack.linear import modes as named_modes
+from singletrack.model import LinearModel
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -58,16 +61,16 @@ class LinearUncertainty:
         With respect to the uncertain parameters.
     covariance : array, shape (k, k)
         Of those parameters, SI.
-    sigma_points : CoefficientMatrices
+    sigma_points : LinearModel
         Of the 2 k designs one standard deviation away, either way, along the k principal directions.
     """
 
     derivatives: Derivatives
     covariance: np.ndarray
-    sigma_points: CoefficientMatrices
+    sigma_points: LinearModel
 
     @property
-    def model(self) -> CoefficientMatrices:
+    def model(self) -> LinearModel:
         """The coefficient matrices of the design as given."""
         return self.derivatives.model
 
@@ -83,7 +86,7 @@ class LinearUncertainty:
 
     def eigenvalues(self, speeds: Array) -> EigenvalueUncertainty:
         """Return the modes' eigenvalues at speeds (n,) in m/s with their standard deviations."""
-        modes = self.model.modes(speeds)
+        modes = named_modes(self.model, speeds)
         roots = modes.eigenvalues
         gradient = self.derivatives.eigenvalues(modes.speeds[:, None], roots)
         real, imaginary = self._deviation(gradient.real), self._deviation(gradient.imag)
@@ -105,7 +108,7 @@ class LinearUncertainty:
 
         Of y = a x + b x² with x normal, the variance is a² + 2 b²; b from the sigma points, those that can exist.
         """
-        moved = np.concatenate([chunk.modes(speeds).eigenvalues for chunk in chunks(self.sigma_points)])
+        moved = np.concatenate([named_modes(chunk, speeds).eigenvalues for chunk in chunks(self.sigma_points)])
         bend = np.nan_to_num((moved[::2] + moved[1::2]) / 2 - roots)
         curved = [np.sqrt(2 * (part**2).sum(axis=0)) for part in (bend.real, bend.imag)]
         small = 1e-9 * np.abs(roots)
@@ -114,7 +117,7 @@ class LinearUncertainty:
 
     def critical_speeds(self) -> CriticalSpeedUncertainty:
         """Return all critical speeds with their standard deviations."""
-        critical = self.model.critical_speeds()
+        critical = critical_speeds(self.model)
         weave, capsize = np.asarray(critical.weave), np.asarray(critical.capsize)
         deviations = (
             self._deviation(self.derivatives.critical_speeds(v, kind))
@@ -142,7 +145,7 @@ def linear_uncertainty(
     bicycle, rider, posture, shoulder
         As for :func:`singletrack.coefficients`; single designs, with standard deviations.
     covariance : (names, array of shape (k, k)), optional
-        Covariance of parameters that correlate (:class:`singletrack.parameters.measure.Measurement` has it); the
+        Covariance of parameters that correlate (:class:`singletrack.measuring.pendulums.Measurement` has it); the
         standard deviations of other parameters stay in force. Without it, parameters are independent.
 
     Raises

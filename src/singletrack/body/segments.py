@@ -7,8 +7,8 @@ from math import pi
 from typing import TYPE_CHECKING
 
 from singletrack.arrays import Array, as_arrays, unit_vector
-from singletrack.body.rigid import Body
-from singletrack.body.solids import cylinder_inertia, gyration_inertia, prism_inertia, sphere_inertia
+from singletrack.mechanics.rigid import Body
+from singletrack.mechanics.solids import cylinder_inertia, gyration_inertia, prism_inertia, sphere_inertia
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

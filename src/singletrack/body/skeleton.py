@@ -7,8 +7,8 @@ from math import pi
 from typing import TYPE_CHECKING, Any
 
 from singletrack.arrays import Array, as_arrays, is_concrete, namespace, stack, vector
+from singletrack.arrays.faults import Fault, refuse_single
 from singletrack.errors import InputError, PostureError
-from singletrack.faults import Fault, refuse_single
 
 if TYPE_CHECKING:
     from singletrack.parameters import Bicycle, Rider

@@ -1,8 +1,17 @@
-"""The linearised equations of motion in closed form, and what follows from them."""
+"""What follows from a linear model: eigenvalues, modes, critical speeds, state space."""
 
-from singletrack.linear.coefficients import coefficients
-from singletrack.linear.critical import CriticalSpeeds
-from singletrack.linear.matrices import CoefficientMatrices
-from singletrack.linear.modes import Modes
+from singletrack.linear.critical import CriticalSpeeds, critical_speeds
+from singletrack.linear.eigenvalues import eigenmotions, eigenvalues
+from singletrack.linear.modes import Modes, modes
+from singletrack.linear.state_space import StateSpace, state_space
 
-__all__ = ["CoefficientMatrices", "CriticalSpeeds", "Modes", "coefficients"]
+__all__ = [
+    "CriticalSpeeds",
+    "Modes",
+    "StateSpace",
+    "critical_speeds",
+    "eigenmotions",
+    "eigenvalues",
+    "modes",
+    "state_space",
+]

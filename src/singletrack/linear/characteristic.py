@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any
 from singletrack.arrays import Array, as_arrays, stack, vector
 
 if TYPE_CHECKING:
-    from singletrack.linear.matrices import CoefficientMatrices
+    from singletrack.model import LinearModel
 
 __all__ = ["CharacteristicPolynomial", "characteristic_polynomial"]
 
@@ -77,7 +77,7 @@ class CharacteristicPolynomial:
         return CharacteristicPolynomial(*one_axis), batch
 
 
-def characteristic_polynomial(model: CoefficientMatrices) -> CharacteristicPolynomial:
+def characteristic_polynomial(model: LinearModel) -> CharacteristicPolynomial:
     """Return the characteristic polynomial of the coefficient matrices.
 
     Examples

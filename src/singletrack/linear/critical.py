@@ -10,7 +10,7 @@ import numpy as np
 from singletrack.linear.characteristic import CharacteristicPolynomial, characteristic_polynomial
 
 if TYPE_CHECKING:
-    from singletrack.linear.matrices import CoefficientMatrices
+    from singletrack.model import LinearModel
 
 __all__ = ["CriticalSpeeds", "critical_speeds"]
 
@@ -73,7 +73,7 @@ def _without_infinity(value: Any) -> Any:
     return None if value == float("inf") else value
 
 
-def critical_speeds(model: CoefficientMatrices) -> CriticalSpeeds:
+def critical_speeds(model: LinearModel) -> CriticalSpeeds:
     """Return the critical speeds and stable ranges of designs (...), for all speeds above zero.
 
     Notes

@@ -9,12 +9,12 @@ import numpy as np
 from singletrack.arrays import as_arrays, is_jax
 from singletrack.errors import InputError
 from singletrack.linear.characteristic import characteristic_polynomial
-from singletrack.linear.quartic import CHUNK, solve_into
+from singletrack.linear.quartic.solve import CHUNK, solve_into
 
 if TYPE_CHECKING:
     from singletrack.arrays import Array
     from singletrack.linear.characteristic import CharacteristicPolynomial
-    from singletrack.linear.matrices import CoefficientMatrices
+    from singletrack.model import LinearModel
 
 __all__ = ["checked_speeds", "eigenmotions", "eigenvalues"]
 
@@ -33,7 +33,7 @@ def checked_speeds(speeds: Array) -> np.ndarray:
     return np.atleast_1d(array).astype(float)
 
 
-def eigenvalues(model: CoefficientMatrices, speeds: Array) -> Array:
+def eigenvalues(model: LinearModel, speeds: Array) -> Array:
     """Return the eigenvalues (..., n, 4) in 1/s at speeds (n,) in m/s, sorted by real then imaginary part.
 
     Roots of a pair are exact conjugates, real roots have an imaginary part of exactly zero. Designs of a batch that
@@ -51,7 +51,7 @@ def eigenvalues(model: CoefficientMatrices, speeds: Array) -> Array:
     [(-14.0784+0j), (-0.7753-4.4649j), (-0.7753+4.4649j), (-0.3229+0j)]
     """
     if is_jax(model.M, model.C1, model.K0, model.K2, model.gravity, speeds):
-        from singletrack.linear.quartic_jax import quartic_roots  # lazy: optional
+        from singletrack.linear.quartic.jax import quartic_roots  # lazy: optional
 
         return quartic_roots(*characteristic_polynomial(model).monic_at(_one_axis(speeds)))
     v = checked_speeds(speeds)
@@ -82,7 +82,7 @@ def _roots_at(polynomials: CharacteristicPolynomial, v: np.ndarray) -> np.ndarra
     return roots
 
 
-def _per_speed(model: CoefficientMatrices, v: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def _per_speed(model: LinearModel, v: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Return v C1 and g K0 + v^2 K2, each of shape (..., n, 2, 2)."""
     C1, K0, K2 = (np.asarray(matrix)[..., None, :, :] for matrix in (model.C1, model.K0, model.K2))
     column = v[:, None, None]
@@ -90,12 +90,12 @@ def _per_speed(model: CoefficientMatrices, v: np.ndarray) -> tuple[np.ndarray, n
     return column * C1, gravity * K0 + column**2 * K2
 
 
-def eigenmotions(model: CoefficientMatrices, speeds: Array, roots: np.ndarray) -> np.ndarray:
+def eigenmotions(model: LinearModel, speeds: Array, roots: np.ndarray) -> np.ndarray:
     """Return the eigenmotion of each root: lean and steer, with lean normalised to one.
 
     Parameters
     ----------
-    model : CoefficientMatrices
+    model : LinearModel
     speeds : array, shape (n,)
         In m/s.
     roots : complex array, shape (..., n, 4)

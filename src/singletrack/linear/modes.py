@@ -20,7 +20,7 @@ from singletrack.errors import InputError
 from singletrack.linear.characteristic import characteristic_polynomial
 from singletrack.linear.eigenvalues import checked_speeds, eigenmotions, eigenvalues
 from singletrack.linear.meetings import Meetings, find_meetings
-from singletrack.linear.quartic import quartic_roots
+from singletrack.linear.quartic.solve import quartic_roots
 from singletrack.linear.slots import arrange, label_at_infinity, label_below, real_count
 
 if TYPE_CHECKING:
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
     from singletrack.arrays import Array
     from singletrack.linear.characteristic import CharacteristicPolynomial
-    from singletrack.linear.matrices import CoefficientMatrices
+    from singletrack.model import LinearModel
 
 __all__ = ["Modes", "modes"]
 
@@ -98,12 +98,12 @@ class Modes:
         )
 
 
-def modes(model: CoefficientMatrices, speeds: Array) -> Modes:
+def modes(model: LinearModel, speeds: Array) -> Modes:
     """Return the named modes of designs (...) at speeds (n,).
 
     Parameters
     ----------
-    model : CoefficientMatrices
+    model : LinearModel
     speeds : array, shape () or (n,)
         Forward speeds in m/s, in any order, not negative.
 

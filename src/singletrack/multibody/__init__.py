@@ -1,9 +1,10 @@
 """A multibody engine: from bodies, joints, closed loops and rolling wheels to motion, and to its linearisation."""
 
-from singletrack.multibody.assembly import assemble, move
-from singletrack.multibody.bicycle import bicycle_model, ride
-from singletrack.multibody.coefficients import Coefficients, coefficients
-from singletrack.multibody.connections import (
+from singletrack.multibody.bicycle.coefficients import coefficients
+from singletrack.multibody.bicycle.model import bicycle_model, ride
+from singletrack.multibody.bicycle.turning import free_turns
+from singletrack.multibody.engine.assembly import assemble, move
+from singletrack.multibody.engine.connections import (
     Closure,
     CoordinateForce,
     Force,
@@ -15,8 +16,8 @@ from singletrack.multibody.connections import (
     close_joint,
     close_point,
 )
-from singletrack.multibody.dynamics import Response, accelerations, loop_forces, wheel_forces
-from singletrack.multibody.elements import (
+from singletrack.multibody.engine.dynamics import Response, accelerations, loop_forces, wheel_forces
+from singletrack.multibody.engine.elements import (
     GROUND,
     Body,
     Joint,
@@ -31,19 +32,17 @@ from singletrack.multibody.elements import (
     spherical,
     universal,
 )
-from singletrack.multibody.equilibrium import SteadyMotion, steady_motion
-from singletrack.multibody.inputs import Constant, Function, Pulse, Sampled
-from singletrack.multibody.linearise import Linearisation, SpeedPolynomials, linearise, speed_polynomials
-from singletrack.multibody.model import Model, State, build
-from singletrack.multibody.simulate import Event, simulate
-from singletrack.multibody.system import System
-from singletrack.multibody.turning import free_turns
+from singletrack.multibody.engine.equilibrium import SteadyMotion, steady_motion
+from singletrack.multibody.engine.inputs import Constant, Function, Pulse, Sampled
+from singletrack.multibody.engine.linearise import Linearisation, SpeedPolynomials, linearise, speed_polynomials
+from singletrack.multibody.engine.model import Model, State, build
+from singletrack.multibody.engine.simulate import Event, simulate
+from singletrack.multibody.engine.system import System
 
 __all__ = [
     "GROUND",
     "Body",
     "Closure",
-    "Coefficients",
     "Constant",
     "CoordinateForce",
     "Event",

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar
 
 from singletrack.arrays import Array, is_concrete
+from singletrack.arrays.faults import Fault
 from singletrack.errors import InputError
-from singletrack.faults import Fault
 from singletrack.parameters.record import Record, parameter
 
 if TYPE_CHECKING:

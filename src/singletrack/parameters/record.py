@@ -12,8 +12,8 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 from singletrack.arrays import Array, is_concrete
+from singletrack.arrays.faults import Fault, refuse_single
 from singletrack.errors import InputError, unknown_name
-from singletrack.faults import Fault, refuse_single
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator

@@ -8,8 +8,8 @@ from math import pi
 from typing import TYPE_CHECKING, ClassVar
 
 from singletrack.arrays import Array, is_concrete
+from singletrack.arrays.faults import Fault
 from singletrack.errors import InputError
-from singletrack.faults import Fault
 from singletrack.parameters.record import Record, parameter
 from singletrack.parameters.shapes import SegmentShape
 

@@ -16,8 +16,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from singletrack.arrays import Array, as_arrays, cross, is_concrete, is_jax, namespace, stack, vector
+from singletrack.arrays.faults import Fault, refuse_single
 from singletrack.errors import PostureError
-from singletrack.faults import Fault, refuse_single
 
 if TYPE_CHECKING:
     from singletrack.parameters import Bicycle

@@ -9,7 +9,7 @@ import numpy as np
 from singletrack.present.style import COLOURS, new_figure, style
 
 if TYPE_CHECKING:
-    from singletrack.parameters.oscillation import Oscillation
+    from singletrack.measuring.oscillation import Oscillation
 
 __all__ = ["oscillation_figure"]
 
@@ -18,7 +18,7 @@ def oscillation_figure(fit: Oscillation, title: str = "") -> Any:
     """Return a matplotlib Figure with the signal, the fitted oscillation and the residuals.
 
     >>> import numpy as np
-    >>> from singletrack.parameters.oscillation import fit_oscillation
+    >>> from singletrack.measuring.oscillation import fit_oscillation
     >>> t = np.linspace(0, 10, 500)
     >>> len(oscillation_figure(fit_oscillation(t, np.exp(-0.1 * t) * np.cos(4 * t) + 1e-3 * np.sin(50 * t))).axes)
     2

@@ -11,16 +11,16 @@ from rich.text import Text
 from singletrack.analysis.uncertainty import linear_uncertainty
 from singletrack.body.reach import seat_oddities
 from singletrack.errors import PostureError, SingletrackError
+from singletrack.measuring.comparison import compare_measured
 from singletrack.parameters import Bicycle
-from singletrack.parameters.comparison import compare_measured
 from singletrack.parameters.plausibility import oddities
 from singletrack.present.records import derived, parameter_rows, uncertain_results
 
 if TYPE_CHECKING:
     from rich.console import Console
 
+    from singletrack.measuring.pendulums import Measurement
     from singletrack.parameters import Rider
-    from singletrack.parameters.measure import Measurement
     from singletrack.parameters.record import Record
 
 __all__ = ["print_measured", "print_measured_speeds", "print_oddities", "print_record", "print_results"]

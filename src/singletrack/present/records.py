@@ -9,9 +9,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from singletrack.analysis.uncertainty import linear_uncertainty
-from singletrack.linear import coefficients
+from singletrack.closed_form import coefficients
+from singletrack.files.toml_write import unit_text
+from singletrack.linear import critical_speeds
 from singletrack.parameters import Bicycle, Rider
-from singletrack.parameters.formats.toml import unit_text
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -120,7 +121,7 @@ def uncertain_results(bicycle: Bicycle, rider: Rider | None, posture: str, shoul
         ``stable_ranges``.
     """
     model = coefficients(bicycle, rider, posture, shoulder)
-    critical = model.critical_speeds()
+    critical = critical_speeds(model)
     found: dict[str, Any] = {
         "matrices": {"M": model.M, "C1": model.C1, "g K0": model.gravity * model.K0, "K2": model.K2},
         "matrix_deviations": {},

@@ -15,7 +15,8 @@ if TYPE_CHECKING:
 
     import numpy as np
 
-    from singletrack.linear import CoefficientMatrices, CriticalSpeeds, Modes
+    from singletrack.linear import CriticalSpeeds, Modes
+    from singletrack.model import LinearModel
 
 __all__ = [
     "coefficients_table",
@@ -43,7 +44,7 @@ def write_csv(header: Iterable[str], rows: Iterable[Iterable[Any]]) -> str:
     return text.getvalue()
 
 
-def coefficients_table(model: CoefficientMatrices, title: str) -> Group:
+def coefficients_table(model: LinearModel, title: str) -> Group:
     """Return M, C1, K0 and K2 of a single design for reading."""
     table = _table(title)
     note = f"M q'' + v C1 q' + (g K0 + v² K2) q = f, with q = (lean, steer), g = {float(model.gravity):g} m/s²"

@@ -8,13 +8,15 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from singletrack.linear import coefficients
-from singletrack.parameters import Bicycle, Rider, load_bicycle, load_rider
+from singletrack.library import load_bicycle, load_rider
+from singletrack.parameters import Bicycle, Rider
 from singletrack.posture import POSTURES, seat
+from singletrack.public import coefficients
 
 if TYPE_CHECKING:
-    from singletrack.linear import CoefficientMatrices, CriticalSpeeds, Modes
+    from singletrack.linear import CriticalSpeeds, Modes
     from singletrack.posture import Posture
+    from singletrack.public import CoefficientMatrices
 
 __all__ = ["SPEEDS", "Case", "paper_cases"]
 

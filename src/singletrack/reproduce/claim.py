@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 if TYPE_CHECKING:
-    from singletrack.linear import CoefficientMatrices
+    from singletrack.model import LinearModel
 
 __all__ = ["Claim", "first_speed", "gk0_22", "m_22", "printed_number_holds"]
 
@@ -56,12 +56,12 @@ def printed_number_holds(printed: str, value: float) -> bool:
     return abs(value - float(printed)) <= 0.5 * 10.0**-digits * (1 + 1e-9)
 
 
-def m_22(model: CoefficientMatrices) -> float:
+def m_22(model: LinearModel) -> float:
     """Return M(2, 2) in kg m^2."""
     return float(model.M[1, 1])
 
 
-def gk0_22(model: CoefficientMatrices) -> float:
+def gk0_22(model: LinearModel) -> float:
     """Return g K0(2, 2) in N m/rad."""
     return float(model.gravity * model.K0[1, 1])
 

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from singletrack.body import skeleton
-from singletrack.linear import coefficients
 from singletrack.posture.motion import joint_motion, steer_axis
+from singletrack.public import coefficients
 from singletrack.reproduce.cases import SPEEDS
 from singletrack.reproduce.claim import Claim, first_speed, gk0_22, m_22
 

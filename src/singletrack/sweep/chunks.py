@@ -8,12 +8,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from singletrack.linear import coefficients
-from singletrack.linear.quartic import use_compiled
+from singletrack import linear
+from singletrack.closed_form import coefficients
+from singletrack.linear.quartic.solve import use_compiled
 from singletrack.sweep.study import Study  # field of a record
 
 if TYPE_CHECKING:
-    from singletrack.linear import CoefficientMatrices
+    from singletrack.model import LinearModel
 
 __all__ = ["Task", "chunk_size", "compute_chunk"]
 
@@ -70,16 +71,16 @@ def compute_chunk(task: Task, rows: np.ndarray) -> tuple[dict[str, np.ndarray], 
     return arrays, faults
 
 
-def _results(model: CoefficientMatrices, study: Study, count: int) -> dict[str, np.ndarray]:
+def _results(model: LinearModel, study: Study, count: int) -> dict[str, np.ndarray]:
     arrays: dict[str, np.ndarray] = {}
     if "matrices" in study.keep:
         for name in ("M", "C1", "K0", "K2"):
             arrays[name] = np.array(np.broadcast_to(getattr(model, name), (count, 2, 2)))
     if "eigenvalues" in study.keep:
-        roots = model.eigenvalues(study.speeds)
+        roots = linear.eigenvalues(model, study.speeds)
         arrays["eigenvalues"] = roots if roots.ndim == 3 else np.array(np.broadcast_to(roots, (count, *roots.shape)))
     if {"critical_speeds", "stable_ranges"} & set(study.keep):
-        critical = model.critical_speeds()
+        critical = linear.critical_speeds(model)
         if "critical_speeds" in study.keep:
             arrays["weave_speeds"] = np.array(np.broadcast_to(critical.weave_speeds, (count, 2)))
             arrays["capsize_speeds"] = np.array(np.broadcast_to(critical.capsize_speeds, (count, 2)))

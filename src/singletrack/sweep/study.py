@@ -18,10 +18,11 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 import singletrack
 from singletrack.errors import InputError, unknown_name
-from singletrack.parameters import Bicycle, Rider, load_bicycle, load_rider, shipped
-from singletrack.parameters.files import _place as place_in_file  # the same words for the same place
-from singletrack.parameters.files import read_text
-from singletrack.speeds import parse_speeds
+from singletrack.files.speeds import parse_speeds
+from singletrack.library import load_bicycle, load_rider, shipped
+from singletrack.library.load import _place as place_in_file  # the same words for the same place
+from singletrack.library.load import read_text
+from singletrack.parameters import Bicycle, Rider
 from singletrack.sweep.designs import Designs, make_designs
 from singletrack.sweep.vary import parse_variation
 

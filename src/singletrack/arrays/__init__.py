@@ -1,0 +1,24 @@
+"""Arrays on NumPy or JAX, vectors, and what is wrong with some designs of a batch."""
+
+from singletrack.arrays.faults import Fault, refuse_single, valid_mask
+from singletrack.arrays.namespace import Array, as_arrays, is_concrete, is_jax, namespace, require_double
+from singletrack.arrays.vectors import cross, dot, matvec, skew, stack, unit_vector, vector
+
+__all__ = [
+    "Array",
+    "Fault",
+    "as_arrays",
+    "cross",
+    "dot",
+    "is_concrete",
+    "is_jax",
+    "matvec",
+    "namespace",
+    "refuse_single",
+    "require_double",
+    "skew",
+    "stack",
+    "unit_vector",
+    "valid_mask",
+    "vector",
+]

@@ -1,0 +1,72 @@
+"""The array API standard under the kernels: the same code on NumPy (default) and on JAX.
+
+``Array`` stands for a NumPy or JAX array, a NumPy scalar or a Python number; the two libraries share no type.
+"""
+
+from __future__ import annotations
+
+import functools
+import sys
+from typing import Any, TypeAlias
+
+from singletrack.errors import InputError
+
+__all__ = [
+    "Array",
+    "as_arrays",
+    "is_concrete",
+    "is_jax",
+    "namespace",
+    "require_double",
+]
+
+Array: TypeAlias = Any
+
+
+@functools.cache
+def _numpy() -> Any:
+    import array_api_compat.numpy as xp  # lazy: `import singletrack` stays light
+
+    return xp
+
+
+def namespace(*values: Array) -> Any:
+    """Return the array namespace of the values: JAX if any is a JAX array, else NumPy.
+
+    >>> namespace(1.0, 2.0).__name__
+    'array_api_compat.numpy'
+    """
+    return sys.modules["jax.numpy"] if is_jax(*values) else _numpy()
+
+
+def is_jax(*values: Array) -> bool:
+    """Tell whether any of the values is a JAX array (or stands for one while JAX traces a function)."""
+    jax = sys.modules.get("jax")
+    return jax is not None and any(isinstance(value, jax.Array) for value in values)
+
+
+def require_double(value: Array) -> None:
+    """Raise InputError if a result is a JAX array of single precision: too coarse for stability, and easily overlooked.
+
+    Raises
+    ------
+    InputError
+        With what to type to make JAX compute in double precision.
+    """
+    if is_jax(value) and value.dtype.itemsize < (16 if value.dtype.kind == "c" else 8):
+        raise InputError(
+            f"JAX computes in {value.dtype}, must be double precision: put "
+            'jax.config.update("jax_enable_x64", True) at the start of the program'
+        )
+
+
+def is_concrete(value: Array) -> bool:
+    """Tell whether a value can be looked at now (a JAX tracer cannot)."""
+    return not any(cls.__name__ == "Tracer" for cls in type(value).__mro__)
+
+
+def as_arrays(*values: Array) -> tuple[Any, tuple[Array, ...]]:
+    """Return the namespace of the values and the values as arrays of floating-point (or complex) numbers."""
+    xp = namespace(*values)
+    arrays = (xp.asarray(value) for value in values)
+    return xp, tuple(array if array.dtype.kind in "fc" else xp.astype(array, xp.float64) for array in arrays)

@@ -1,0 +1,145 @@
+"""The principal parameter set (Moore and Hubbard 2019): radii of gyration and angles of the principal axes.
+
+Bodies: D rear frame, P rider, H front frame, R and F wheels. A principal inertia diag(m kaa², m kyy², m kbb²), turned
+by alpha about y, has Ixx = m (kaa² cos² + kbb² sin²), Izz = m (kaa² sin² + kbb² cos²), Ixz = -m (kaa² - kbb²) sin cos.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+from singletrack.errors import InputError
+from singletrack.files.symbols import NAMES
+from singletrack.parameters.bicycle import Bicycle
+from singletrack.parameters.lump import PlanarBody, combine_planar
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from singletrack.files.entries import Entries
+
+__all__ = ["bicycle_from_principal", "principal_values"]
+
+_SAME = ("c", "g", "lam", "w", "rF", "rR", "mF", "mR", "mH", "xH", "zH")
+_OWN = (
+    *("mD", "xD", "zD", "alphaD", "kDaa", "kDbb", "kDyy"),
+    *("mP", "xP", "zP", "alphaP", "kPaa", "kPbb", "kPyy", "lP", "wP"),
+    *("alphaH", "kHaa", "kHbb", "kHyy", "kFaa", "kFyy", "kRaa", "kRyy"),
+)
+_DEPENDENT = ("alphaF", "alphaR", "kFbb", "kRbb", "yD", "yF", "yH", "yP", "yR", "xR", "xF", "zR", "zF")
+_POSITIVE = ("mD", *(name for name in _OWN if name.startswith("k") and name[1] != "P"))
+_NOT_NEGATIVE = ("mP", "kPaa", "kPbb", "kPyy", "lP", "wP")
+
+
+def bicycle_from_principal(entries: Entries, source: str) -> Bicycle:
+    """Return the bicycle of a principal set, its rider lumped into the rear frame.
+
+    The set's own values are kept in ``extras``, so that they can be written back to the digit.
+
+    Raises
+    ------
+    InputError
+        For symbols that are unknown or missing, and values that are not allowed; names file, line and symbol.
+    """
+    entries.require_known([*_SAME, *_OWN, *_DEPENDENT, "v"], "symbol")
+    entries.require([*_SAME, *_OWN], "the principal parameter set")
+    values = entries.values()
+    for names, least in ((_POSITIVE, "greater than zero"), (_NOT_NEGATIVE, "zero or more")):
+        for name in names:
+            if values[name] < 0 or (least != "zero or more" and values[name] == 0):
+                raise InputError(f"{entries.place(name)}: {name} = {values[name]:g}, must be {least}")
+    for name, deviation in entries.deviations().items():
+        raise InputError(f"{entries.place(name)}: {name} has a standard deviation ({deviation:g}), must have none here")
+    entries.require_equal(_dependent(values))
+    # A rear frame of masses and radii near the largest double overflows; the record then refuses what is not finite.
+    own = {name: values[name] for name in (*_OWN, *_DEPENDENT, "v") if name in values}
+    symbols = {NAMES[symbol]: symbol for symbol in _SAME}
+    for end, letter in (("rear", "D"), ("front", "H")):
+        axes = {"xx": "aa", "yy": "yy", "zz": "bb", "xz": "aa"}
+        symbols |= {f"{end}_frame_{part}": f"{part[0]}{letter}" for part in ("mass", "x", "z")}
+        symbols |= {f"{end}_frame_inertia_{axis}": f"k{letter}{radius}" for axis, radius in axes.items()}
+    for end, letter in (("rear", "R"), ("front", "F")):
+        symbols |= {f"{end}_wheel_inertia_{axis}": f"k{letter}{r}" for axis, r in (("xx", "aa"), ("yy", "yy"))}
+    return entries.build(
+        lambda: Bicycle(
+            name=entries.name, description=entries.description, source=source, extras=own, **_benchmark(values)
+        ),
+        symbols,
+    )
+
+
+def _dependent(p: Mapping[str, float]) -> dict[str, float]:
+    zero = dict.fromkeys(("alphaF", "alphaR", "yD", "yF", "yH", "yP", "yR", "xR"), 0.0)
+    return {**zero, "kFbb": p["kFaa"], "kRbb": p["kRaa"], "xF": p["w"], "zR": -p["rR"], "zF": -p["rF"]}
+
+
+def _benchmark(p: Mapping[str, float]) -> dict[str, Any]:
+    """Return our parameters from those of a principal set."""
+    rear = combine_planar([_body(p, "D"), _body(p, "P")])
+    front = _body(p, "H")
+    found: dict[str, Any] = {NAMES[symbol]: p[symbol] for symbol in _SAME}
+    for end, body in (("rear", rear), ("front", front)):
+        found |= {f"{end}_frame_mass": body.mass, f"{end}_frame_x": body.x, f"{end}_frame_z": body.z}
+        found |= {f"{end}_frame_inertia_{axes}": getattr(body, axes) for axes in ("xx", "yy", "zz", "xz")}
+    for end, letter in (("rear", "R"), ("front", "F")):
+        for axes, radius in (("xx", "aa"), ("yy", "yy")):
+            found[f"{end}_wheel_inertia_{axes}"] = p[f"m{letter}"] * p[f"k{letter}{radius}"] * p[f"k{letter}{radius}"]
+    return found
+
+
+def _body(p: Mapping[str, float], letter: str) -> PlanarBody:
+    mass, alpha = p[f"m{letter}"], p[f"alpha{letter}"]
+    sin, cos = math.sin(alpha), math.cos(alpha)
+    aa, bb, yy = (mass * p[f"k{letter}{axes}"] * p[f"k{letter}{axes}"] for axes in ("aa", "bb", "yy"))
+    return PlanarBody(
+        mass=mass,
+        x=p[f"x{letter}"],
+        z=p[f"z{letter}"],
+        xx=aa * cos * cos + bb * sin * sin,
+        yy=yy,
+        zz=aa * sin * sin + bb * cos * cos,
+        xz=(bb - aa) * sin * cos,
+    )
+
+
+def principal_values(bicycle: Bicycle) -> dict[str, float]:
+    """Return a bicycle as a principal set: to the digit as it was read, if it was; else all mass in D, no rider.
+
+    Examples
+    --------
+    >>> from singletrack import load_bicycle
+    >>> round(principal_values(load_bicycle("stratos"))["kFyy"], 6)
+    0.216907
+    """
+    same = {symbol: float(getattr(bicycle, NAMES[symbol])) for symbol in _SAME}
+    read = {name: value for name, value in bicycle.extras.items() if name in (*_OWN, *_DEPENDENT)} | same
+    if all(name in read for name in _OWN):
+        derived = _benchmark(read)
+        if all(getattr(bicycle, name) == value for name, value in derived.items()):
+            return read
+    values = {**same, **_principal(bicycle, "rear", "D"), **_principal(bicycle, "front", "H")}
+    for end, letter in (("rear", "R"), ("front", "F")):
+        for axes, radius in (("xx", "aa"), ("yy", "yy")):
+            moment = float(getattr(bicycle, f"{end}_wheel_inertia_{axes}"))
+            values[f"k{letter}{radius}"] = math.sqrt(moment / float(getattr(bicycle, f"{end}_wheel_mass")))
+    rider = dict.fromkeys(("mP", "alphaP", "kPaa", "kPbb", "kPyy", "lP", "wP"), 0.0)
+    values |= {**rider, "xP": values["xD"], "zP": values["zD"]}
+    return {**values, **_dependent(values)}
+
+
+def _principal(bicycle: Bicycle, end: str, letter: str) -> dict[str, float]:
+    mass, x, z, xx, yy, zz, xz = (
+        float(getattr(bicycle, f"{end}_frame_{part}"))
+        for part in ("mass", "x", "z", "inertia_xx", "inertia_yy", "inertia_zz", "inertia_xz")
+    )
+    mean, half = (xx + zz) / 2, math.hypot((xx - zz) / 2, xz)
+    return {
+        f"m{letter}": mass,
+        f"x{letter}": x,
+        f"z{letter}": z,
+        f"alpha{letter}": math.atan2(-2 * xz, xx - zz) / 2,
+        f"k{letter}aa": math.sqrt((mean + half) / mass),
+        f"k{letter}bb": math.sqrt((mean - half) / mass),
+        f"k{letter}yy": math.sqrt(yy / mass),
+    }

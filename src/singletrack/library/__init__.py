@@ -1,0 +1,5 @@
+"""What comes with the package, and loading by name or path."""
+
+from singletrack.library.load import load_bicycle, load_rider, shipped
+
+__all__ = ["load_bicycle", "load_rider", "shipped"]

@@ -1,0 +1,1 @@
+"""Roots of many quartics at once."""

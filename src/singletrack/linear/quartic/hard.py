@@ -1,0 +1,69 @@
+"""The few quartics that two real factors do not hold: roots that nearly meet, or of very different size."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from singletrack.linear.quartic.solve import factor, ordered_roots
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from singletrack.arrays import Array
+
+__all__ = ["horner", "refined", "solve_again"]
+
+
+def solve_again(b: np.ndarray, c: np.ndarray, d: np.ndarray, e: np.ndarray) -> np.ndarray:
+    """Return the roots of the few quartics that :func:`factor` has not factored to rounding.
+
+    Roots of very different size only need more of Newton's steps; for those that (nearly) meet, LAPACK finds the
+    eigenvalues of the companion matrix, and these are refined until each is exact for coefficients changed by rounding.
+    """
+    with np.errstate(all="ignore"):
+        p1, q1, p2, q2, good = factor(b, c, d, e, np.where, np.sqrt, newton_steps=12)
+        parts = ordered_roots(p1, q1, p2, q2, np.where, np.sqrt)
+    roots: np.ndarray = np.stack(parts[:4], axis=-1) + 1j * np.stack(parts[4:], axis=-1)
+    if not good.all():
+        bad = ~good
+        roots[bad] = _solve_by_lapack(*(a[bad] for a in (b, c, d, e)))
+    return roots
+
+
+def _solve_by_lapack(b: np.ndarray, c: np.ndarray, d: np.ndarray, e: np.ndarray) -> np.ndarray:
+    finite = np.isfinite(b) & np.isfinite(c) & np.isfinite(d) & np.isfinite(e)
+    monic = np.where(finite[:, None], np.stack([b, c, d, e], axis=-1), 0.0)
+    companion = np.zeros((len(b), 4, 4))
+    companion[:, range(1, 4), range(3)] = 1.0
+    companion[:, 0, :] = -monic
+    roots = np.sort_complex(np.linalg.eigvals(companion).astype(complex))
+    # Each root's conjugate among the four: refined together, they stay conjugates.
+    partner = np.argmin(np.abs(roots[:, :, None] - roots[:, None, :].conj()), axis=-1)
+    upper, real = roots.imag > 0, roots.imag == 0
+    with np.errstate(all="ignore"):
+        for _ in range(20):
+            moved, done = refined(roots, tuple(monic.T), np.where)
+            moved = np.where(real, moved.real, np.where(upper, moved, np.take_along_axis(moved, partner, 1).conj()))
+            roots = np.where(np.isfinite(moved) & ~done, moved, roots)
+    return np.where(finite[:, None], np.sort_complex(roots), np.nan)
+
+
+def refined(s: Array, coefficients: tuple[Array, ...], where: Callable[..., Array]) -> tuple[Array, Array]:
+    """Return roots (..., 4) after one iteration of Ehrlich and Aberth, and which of them were exact to rounding."""
+    value, slope, size = horner(s, coefficients)
+    newton = value / where(slope == 0, 1e-300, slope)
+    gaps = s[..., :, None] - s[..., None, :]
+    pull = where(gaps == 0, 0.0, 1.0 / where(gaps == 0, 1.0, gaps)).sum(axis=-1)
+    return s - newton / (1.0 - newton * pull), abs(value) <= 4e-16 * size
+
+
+def horner(s: Array, coefficients: tuple[Array, ...]) -> tuple[Array, Array, Array]:
+    """Return p(s), p'(s) and the sum of the sizes of p's terms, for s (..., 4) and coefficients b to e (...)."""
+    value, slope, size = 1.0 + 0.0 * s, 0.0 * s, 1.0 + 0.0 * abs(s)
+    for a in coefficients:
+        slope = slope * s + value
+        value = value * s + a[..., None]
+        size = size * abs(s) + abs(a[..., None])
+    return value, slope, size

@@ -1,0 +1,1 @@
+"""From pendulum periods, angles and lengths to parameters with uncertainties."""

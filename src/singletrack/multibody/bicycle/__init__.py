@@ -1,0 +1,1 @@
+"""The bicycle and its rider as a machine of the engine."""

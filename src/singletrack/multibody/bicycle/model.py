@@ -1,0 +1,193 @@
+"""The bicycle of Meijaard et al. (2007), with or without a rider, as a machine of the multibody engine.
+
+The drawing is the bicycle upright and straight ahead, the rear contact at the origin. Coordinates: ``x, y, z`` of the
+point of the rear frame drawn at the rear contact, ``yaw``, ``lean``, ``pitch``, ``rear wheel``, ``steer`` (positive
+to the right), ``front wheel``, and the angles of the rider's joints. The independent speeds are those of lean, steer
+and the rear wheel, which turns by a negative angle when the bicycle goes forward. The generalised force on the rate of
+lean, with the others held, is the lean torque of Meijaard et al.; so for the steer.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from singletrack.errors import InputError
+from singletrack.mechanics import Body as Solid
+from singletrack.mechanics import combine
+from singletrack.multibody.bicycle.parametrise import Numbers
+from singletrack.multibody.bicycle.rider import frame_segments, rider_elements
+from singletrack.multibody.engine.assembly import assemble, move
+from singletrack.multibody.engine.connections import CoordinateForce, Wheel
+from singletrack.multibody.engine.elements import GROUND, Body, free, revolute
+from singletrack.multibody.engine.model import Model, build
+from singletrack.multibody.engine.system import System
+from singletrack.posture import seat
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from singletrack.multibody.engine.elements import Scalar
+    from singletrack.multibody.engine.model import State
+    from singletrack.parameters import Bicycle, Rider
+    from singletrack.posture import Posture
+
+__all__ = ["bicycle_model", "ride"]
+
+MOSTKINDS = 16
+KINDS: dict[Any, Model] = {}
+
+
+def _refuse_batches(*records: Bicycle | Rider | None) -> None:
+    for record in records:
+        for name, value in ({} if record is None else record.values()).items():
+            if np.ndim(value):
+                raise InputError(
+                    f"{name}: an array of shape {np.shape(value)}; the multibody engine takes one design at a time, "
+                    "a number is needed (the closed form takes batches)"
+                )
+
+
+def _solid(numbers: Numbers, name: str, solid: Solid) -> Body:
+    return Body(
+        name,
+        numbers.number(f"{name} mass", solid.mass),
+        numbers.vector(f"{name} centre", solid.centre),
+        numbers.inertia(f"{name} inertia", solid.inertia),
+    )
+
+
+def _own_solids(bicycle: Bicycle) -> dict[str, Solid]:
+    """Return the bicycle's four bodies."""
+    solids = {}
+    for part in ("rear_frame", "front_frame"):
+        mass, x, z, xx, yy, zz, xz = (
+            float(getattr(bicycle, f"{part}_{name}"))
+            for name in ("mass", "x", "z", "inertia_xx", "inertia_yy", "inertia_zz", "inertia_xz")
+        )
+        inertia = np.array([[xx, 0.0, xz], [0.0, yy, 0.0], [xz, 0.0, zz]])
+        solids[part.replace("_", " ")] = Solid(mass, np.array([x, 0.0, z]), inertia)
+    for part, x in (("rear_wheel", 0.0), ("front_wheel", float(bicycle.wheel_base))):
+        mass, radius, xx, yy = (
+            float(getattr(bicycle, f"{part}_{name}")) for name in ("mass", "radius", "inertia_xx", "inertia_yy")
+        )
+        solids[part.replace("_", " ")] = Solid(mass, np.array([x, 0.0, -radius]), np.diag([xx, yy, xx]))
+    return solids
+
+
+def _elements(bicycle: Bicycle, posture: Posture | None, numbers: Numbers) -> dict[str, Any]:
+    solids = _own_solids(bicycle)
+    if posture is not None:
+        solids["rear frame"] = combine([solids["rear frame"], *frame_segments(posture)])
+    bodies = [_solid(numbers, name, solid) for name, solid in solids.items()]
+    tilt = float(bicycle.steer_axis_tilt)
+    foot = numbers.vector("steer axis foot", (float(bicycle.wheel_base) + float(bicycle.trail), 0.0, 0.0))
+    axis = numbers.vector("steer axis", (np.sin(tilt), 0.0, np.cos(tilt)))
+    hubs: dict[str, tuple[Scalar, ...]] = {
+        end: numbers.vector(f"{end} hub", solids[f"{end} wheel"].centre) for end in ("rear", "front")
+    }
+    joints = [
+        free("frame", GROUND, "rear frame", coordinates=("x", "y", "z", "yaw", "lean", "pitch")),
+        revolute("rear wheel", "rear frame", "rear wheel", hubs["rear"], (0, 1, 0)),
+        revolute("steer", "rear frame", "front frame", foot, axis),
+        revolute("front wheel", "front frame", "front wheel", hubs["front"], (0, 1, 0)),
+    ]
+    wheels = [
+        Wheel(f"{end} wheel", f"{end} wheel", hub, numbers.always(f"{end} radius", -solids[f"{end} wheel"].centre[2]))
+        for end, hub in hubs.items()
+    ]
+    inputs = [
+        CoordinateForce("lean torque", "lean"),
+        CoordinateForce("steer torque", "steer"),
+        CoordinateForce("rear wheel torque", "rear wheel"),
+    ]
+    more = rider_elements(posture, numbers) if posture is not None else {"bodies": [], "joints": [], "closures": []}
+    return {
+        "bodies": bodies + more["bodies"],
+        "joints": joints + more["joints"],
+        "closures": more["closures"],
+        "wheels": wheels,
+        "inputs": inputs,
+    }
+
+
+def bicycle_model(
+    bicycle: Bicycle, rider: Rider | None = None, posture: str = "rigid", shoulder: str | None = None
+) -> Model:
+    """Return the full nonlinear model of a bicycle, with a rider in a posture.
+
+    Designs of one kind share one derivation: only the first takes time.
+
+    Parameters
+    ----------
+    bicycle, rider
+        One design; numbers, no arrays.
+    posture, shoulder
+        As for :func:`singletrack.posture.seat`.
+
+    Raises
+    ------
+    InputError
+        For arrays, an unknown posture, a bicycle that cannot seat a rider, or a posture without a rider.
+    PostureError
+        If arms or legs do not reach.
+
+    Examples
+    --------
+    >>> from singletrack import load_bicycle
+    >>> bicycle_model(load_bicycle("benchmark")).system.independent
+    ('lean', 'steer', 'rear wheel')
+    """
+    _refuse_batches(bicycle, rider)
+    if rider is None and posture != "rigid":
+        raise InputError(f"posture {posture} needs a rider; allowed without one: rigid")
+    seated = None if rider is None else seat(bicycle, rider, posture, shoulder)
+    numbers = Numbers()
+    elements = _elements(bicycle, seated, numbers)
+    system = System(
+        **elements,
+        gravity=float(bicycle.gravity),
+        independent=("lean", "steer", "rear wheel"),
+        parameters=numbers.values,
+    )
+    key = (numbers.key(), system.coordinates)
+    if key not in KINDS:
+        while len(KINDS) >= MOSTKINDS:
+            KINDS.pop(next(iter(KINDS)))
+        KINDS[key] = build(system)
+    known = KINDS[key]
+    return Model(system, known.equations, known.cache)
+
+
+def ride(
+    model: Model,
+    speed: float,
+    coordinates: Mapping[str, float] | None = None,
+    rates: Mapping[str, float] | None = None,
+    *,
+    guess: Mapping[str, float] | None = None,
+) -> State:
+    """Return a state of a bicycle on the road; loops and wheels are closed and put on the ground.
+
+    Parameters
+    ----------
+    model
+        From :func:`bicycle_model`.
+    speed
+        Radius of the rear wheel times its turning rate, m/s: the speed of an upright bicycle.
+    coordinates, rates
+        Coordinates (rad, m) and rates of lean and steer (rad/s); zero where not given.
+    guess
+        Where to start with the other coordinates.
+
+    Examples
+    --------
+    >>> from singletrack import load_bicycle
+    >>> state = ride(bicycle_model(load_bicycle("benchmark")), 4.6, {"lean": 0.1}, {"lean": 0.5})
+    >>> round(state.rate("x"), 3), state.rate("lean")
+    (4.6, 0.5)
+    """
+    upright = {"x": 0.0, "y": 0.0, "yaw": 0.0, "lean": 0.0, "steer": 0.0, "rear wheel": 0.0, "front wheel": 0.0}
+    state = assemble(model, upright | dict(coordinates or {}), guess=guess)
+    return move(state, {"rear wheel": -speed / model.system.parameters["rear radius"]} | dict(rates or {}))

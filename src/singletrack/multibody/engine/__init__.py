@@ -1,0 +1,1 @@
+"""Bodies, joints, loops and rolling wheels: equations, linearisation, simulation."""

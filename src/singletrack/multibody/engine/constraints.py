@@ -1,0 +1,115 @@
+"""Closed loops and rolling wheels as expressions: what must vanish, and the forces that keep it so."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import casadi as ca
+
+from singletrack.multibody.engine.kinematics import DOWN, SX, column, slices, unit
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from singletrack.multibody.engine.connections import Closure, Wheel
+    from singletrack.multibody.engine.kinematics import Frame
+    from singletrack.multibody.engine.system import System
+
+__all__ = ["Contact", "closure_wrench", "constraint_rates", "holonomic_residual", "wheel_contact"]
+
+
+def closure_residual(closure: Closure, frames: Mapping[str, Frame]) -> SX:
+    """Return what must vanish for the loop to be closed: one entry for each of the closure's rows."""
+    first, second = frames[closure.first], frames[closure.second]
+    apart = second.point(column(closure.second_point)) - first.point(column(closure.first_point))
+    if closure.length is not None:
+        return ca.norm_2(apart) - closure.length
+    rows = [ca.dot(first.rotation @ column(direction), apart) for direction in closure.directions]
+    rows += [ca.dot(first.rotation @ column(one), second.rotation @ column(other)) for one, other in closure.orthogonal]
+    return ca.vertcat(*rows)
+
+
+def closure_rate(closure: Closure, frames: Mapping[str, Frame]) -> SX:
+    """Return the rate of :func:`closure_residual`, from the velocities of the bodies."""
+    first, second = frames[closure.first], frames[closure.second]
+    arms = first.arm(column(closure.first_point)), second.arm(column(closure.second_point))
+    apart = second.position + arms[1] - first.position - arms[0]
+    parting = second.point_velocity(arms[1]) - first.point_velocity(arms[0])
+    if closure.length is not None:
+        return ca.dot(apart, parting) / ca.norm_2(apart)
+    # seen from the first body, so that the direction rests: one cross product for all directions
+    seen = parting - ca.cross(first.spin, apart)
+    rows = [ca.dot(first.rotation @ column(direction), seen) for direction in closure.directions]
+    turning = second.spin - first.spin
+    for one, other in closure.orthogonal:
+        axis = ca.cross(second.rotation @ column(other), first.rotation @ column(one))
+        rows.append(ca.dot(turning, axis))
+    return ca.vertcat(*rows)
+
+
+def closure_wrench(closure: Closure, frames: Mapping[str, Frame], multipliers: SX) -> tuple[SX, SX]:
+    """Return the force (N) and torque (N m) of the first body on the second, at its point, in the ground's frame."""
+    first, second = frames[closure.first], frames[closure.second]
+    force, torque = ca.SX(3, 1), ca.SX(3, 1)
+    if closure.length is not None:
+        apart = second.point(column(closure.second_point)) - first.point(column(closure.first_point))
+        return apart / ca.norm_2(apart) * multipliers[0], torque
+    count = len(closure.directions)
+    for i, direction in enumerate(closure.directions):
+        force += multipliers[i] * (first.rotation @ column(direction))
+    for i, (one, other) in enumerate(closure.orthogonal):
+        axis = ca.cross(second.rotation @ column(other), first.rotation @ column(one))
+        torque += multipliers[count + i] * axis
+    return force, torque
+
+
+@dataclass(frozen=True, eq=False)
+class Contact:
+    """Where and how a wheel touches the ground: point, heading, and the velocity of the wheel's material there.
+
+    The velocity has three parts: forward along the heading, to the side, down. The contact sinks as fast as the
+    material in it, as the wheel is lowest there.
+    """
+
+    point: SX
+    heading: SX
+    velocity: SX
+
+
+def wheel_contact(wheel: Wheel, frames: Mapping[str, Frame]) -> Contact:
+    """Return the contact of a wheel with the ground (see :class:`~singletrack.multibody.Wheel`)."""
+    frame = frames[wheel.body]
+    axle = frame.rotation @ unit(wheel.axle)
+    across = ca.cross(axle, DOWN)
+    level = ca.norm_2(across)
+    downward = (DOWN - axle[2] * axle) / level
+    arm = frame.arm(column(wheel.centre)) + (wheel.radius - wheel.crown) * downward + wheel.crown * DOWN
+    heading = across / level
+    side = ca.cross(DOWN, heading)
+    velocity = frame.point_velocity(arm)
+    parts = ca.vertcat(ca.dot(heading, velocity), ca.dot(side, velocity), velocity[2])
+    return Contact(frame.position + arm, heading, parts)
+
+
+def _quaternions(system: System, q: SX) -> list[SX]:
+    """Return the coordinates of every quaternion (each less one in its first component)."""
+    place = slices(system)
+    return [q[place[joint.name]][-4:] for joint in system.joints if joint.quaternion]
+
+
+def holonomic_residual(system: System, frames: Mapping[str, Frame], contacts: Mapping[str, Contact], q: SX) -> SX:
+    """Return everything that must vanish in position: loops, lengths of quaternions, wheel heights."""
+    loops = [closure_residual(closure, frames) for closure in system.closures]
+    lengths = [2 * part[0] + ca.dot(part, part) for part in _quaternions(system, q)]
+    return ca.vertcat(ca.SX(0, 1), *loops, *lengths, *(contacts[wheel.name].point[2] for wheel in system.wheels))
+
+
+def constraint_rates(system: System, frames: Mapping[str, Frame], contacts: Mapping[str, Contact], q: SX, u: SX) -> SX:
+    """Return everything that must vanish in velocity: rates of the holonomic residual, then the slip of wheels."""
+    touching = [contacts[wheel.name].velocity for wheel in system.wheels]
+    loops = [closure_rate(closure, frames) for closure in system.closures]
+    pairs = zip(_quaternions(system, q), _quaternions(system, u), strict=True)
+    lengths = [2 * rate[0] + 2 * ca.dot(part, rate) for part, rate in pairs]
+    sinking, slipping = [v[2] for v in touching], [v[:2] for v in touching]
+    return ca.vertcat(ca.SX(0, 1), *loops, *lengths, *sinking, *slipping)

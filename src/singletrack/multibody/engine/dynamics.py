@@ -1,0 +1,228 @@
+"""Accelerations and constraint forces in minimal speeds, projected numerically."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import casadi as ca
+import numpy as np
+
+from singletrack.arrays import Array
+from singletrack.errors import ModelError, unknown_name
+from singletrack.multibody.engine.assembly import span_of
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping, Sequence
+
+    from singletrack.multibody.engine.inputs import Signal
+    from singletrack.multibody.engine.model import Model, State
+    from singletrack.multibody.engine.partition import Partition
+    from singletrack.multibody.engine.system import System
+
+__all__ = ["Response", "accelerations", "loop_forces", "reduced", "right_side", "wheel_forces"]
+
+MASSLESS = 1e-13
+
+
+@dataclass(frozen=True, eq=False)
+class Response:
+    """What the machine does in a state: accelerations a (n,) and multipliers (rows,) of the constraints, N or N m.
+
+    Multipliers of redundant constraints are zero: the others carry the load.
+    """
+
+    a: Array
+    multipliers: Array
+
+
+def input_vector(system: System, values: Mapping[str, float] | None) -> Array:
+    """Return the inputs (inputs,) for some given by name; the others are zero."""
+    names = [given.name for given in system.inputs]
+    vector = np.zeros(len(names))
+    for name, value in (values or {}).items():
+        if name not in names:
+            raise ModelError(unknown_name("input", name, names))
+        vector[names.index(name)] = value
+    return vector
+
+
+def reduced(model: Model, parts: Partition) -> ca.Function:
+    """Return the compiled function (q, u_i, f, p) -> u (n,), a (n,), multipliers (rows,).
+
+    u_i are the independent speeds. With T from C T = 0 and b from C b = -c, the accelerations obey
+    ``T^T M T a_i = -T^T (h + M b)``; the linear systems are solved numerically in every evaluation.
+    """
+    key = ("reduced", parts)
+    if key not in model.cache:
+        model.cache[key] = _reduced(model, parts)
+    function: ca.Function = model.cache[key]
+    return function
+
+
+def _solve(matrix: Any, right: Any) -> Any:
+    return ca.solve(matrix, right, "lapacklu") if matrix.shape[0] > 1 else right / matrix
+
+
+def _reduced(model: Model, parts: Partition) -> ca.Function:
+    system, equations = model.system, model.equations
+    n, rows = len(system.coordinates), list(parts.rows)
+    free, dependent = list(parts.independent_speeds), list(parts.dependent_speeds)
+    q, p = ca.MX.sym("q", n), ca.MX.sym("p", len(equations.parameter_names))
+    ui, f = ca.MX.sym("ui", len(free)), ca.MX.sym("f", len(system.inputs))
+    order = np.argsort(free + dependent).tolist()
+    jacobian, mass = equations.kinetics(q, p)
+    if dependent:
+        kept = jacobian[rows, :]
+        own = kept[:, dependent]
+        span = ca.vertcat(ca.MX.eye(len(free)), -_solve(own, kept[:, free]))[order, :]
+    else:
+        span = ca.MX.eye(n)[free, :].T
+    u = span @ ui
+    h, c = equations.bias(q, u, f, p)
+    b = ca.MX(n, 1)
+    if dependent:
+        b = ca.vertcat(ca.MX(len(free), 1), -_solve(own, c[rows]))[order]
+    push = -(h + mass @ b)
+    ai = _solve(span.T @ (mass @ span), span.T @ push) if free else ca.MX(0, 1)
+    a = span @ ai + b
+    multipliers = ca.MX(len(system.rows), 1)
+    if dependent:
+        multipliers[rows] = _solve(own.T, (mass @ a + h)[dependent])
+    return ca.Function("reduced", [q, ui, f, p], [u, a, ca.densify(multipliers)])
+
+
+def accelerations(state: State, inputs: Mapping[str, float] | None = None) -> Response:
+    """Return the accelerations and constraint forces of a state under constant inputs.
+
+    Raises
+    ------
+    ModelError
+        Where a freedom has no mass, or the joint angles are singular (gimbal lock).
+
+    Examples
+    --------
+    >>> from singletrack.multibody import Body, System, assemble, build, revolute
+    >>> bob = Body("bob", 1.0, (0, 0, 2))
+    >>> model = build(System([bob], [revolute("swing", "ground", "bob", (0, 0, 0), (0, 1, 0))]))
+    >>> round(float(accelerations(assemble(model, {"swing": 0.5235987755982988})).a[0]), 12)
+    -2.4525
+    """
+    f = input_vector(state.model.system, inputs)
+    _refuse_massless(state)
+    function = reduced(state.model, state.partition)
+    ui = state.u[list(state.partition.independent_speeds)]
+    _, a, multipliers = function(state.q, ui, f, state.parameters)
+    a, multipliers = a.full().ravel(), multipliers.full().ravel()
+    return Response(a, multipliers)
+
+
+def right_side(
+    state: State, driven: Sequence[Signal] = (), start: float = -np.inf, stop: float = np.inf
+) -> Callable[[float, Array], Array]:
+    """Return the right side of the ordinary differential equations of motion, for any integrator.
+
+    The function returned takes a time and ``y = [q, u_i]``, all coordinates (n,) and the independent speeds (m,) of
+    the state's partition, and returns ``y' = [u, a_i]``. It is fast, and not to be called from several threads.
+
+    Parameters
+    ----------
+    state
+        Gives the machine, its parameters and the independent speeds.
+    driven
+        One signal for each input; zero without.
+    start, stop
+        Inputs are those inside this interval of time, s: at an end that is a break, those next to it.
+
+    Examples
+    --------
+    >>> from singletrack.multibody import Body, System, assemble, build, revolute
+    >>> bob = Body("bob", 1.0, (0, 0, 1))
+    >>> model = build(System([bob], [revolute("swing", "ground", "bob", (0, 0, 0), (0, 1, 0))], gravity=2.0))
+    >>> right_side(assemble(model))(0.0, np.array([np.pi / 2, 3.0])).round(12).tolist()
+    [3.0, -2.0]
+    """
+    n, free = len(state.q), list(state.partition.independent_speeds)
+    function = reduced(state.model, state.partition)
+    buffer: Any
+    buffer, evaluate = function.buffer()
+    q, u_i, f = np.empty(n), np.empty(len(free)), np.zeros(len(state.model.system.inputs))
+    u, a, multipliers = np.empty(n), np.empty(n), np.empty(len(state.model.system.rows))
+    for i, given in enumerate((q, u_i, f, state.parameters)):
+        buffer.set_arg(i, memoryview(given.data))
+    for i, result in enumerate((u, a, multipliers)):
+        buffer.set_res(i, memoryview(result.data))
+    low, high = np.nextafter(start, np.inf), np.nextafter(stop, -np.inf)
+
+    def evaluate_at(t: float, y: Array) -> Array:
+        q[:], u_i[:] = y[:n], y[n:]
+        inside = min(max(t, low), high)
+        for i, signal in enumerate(driven):
+            f[i] = signal(inside)
+        evaluate()
+        return np.concatenate([u, a[free]])
+
+    # the evaluation reads and writes this memory, which must live as long as it does
+    evaluate_at.keep = (buffer, multipliers, state)  # type: ignore[attr-defined]
+    return evaluate_at
+
+
+def loop_forces(state: State, inputs: Mapping[str, float] | None = None) -> dict[str, Array]:
+    """Return the force (3,) of the first body on the second of every closed loop, in the ground's frame, N.
+
+    Examples
+    --------
+    How hard does the leaned rider press? The force of each hand on the handlebar, forward and down:
+
+    >>> from singletrack import load_bicycle, load_rider
+    >>> from singletrack.multibody import bicycle_model, ride
+    >>> leaned = ride(bicycle_model(load_bicycle("stratos"), load_rider("rider-a"), "leaned"), 0.0)
+    >>> forces = loop_forces(leaned)
+    >>> list(forces)
+    ['right hand', 'left hand']
+    >>> bool(forces["left hand"][2] > 0)
+    True
+    """
+    multipliers = accelerations(state, inputs).multipliers
+    forces, _ = state.model.equations.loop_wrenches(state.q, multipliers, state.parameters)
+    names = [closure.name for closure in state.model.system.closures]
+    return dict(zip(names, forces.full().T, strict=True))
+
+
+def wheel_forces(state: State, inputs: Mapping[str, float] | None = None) -> dict[str, Array]:
+    """Return the force (longitudinal, lateral, normal) of the ground on every wheel, N.
+
+    The normal force is positive when the wheel presses on the ground.
+
+    >>> from singletrack import load_bicycle
+    >>> from singletrack.multibody import bicycle_model, ride
+    >>> loads = wheel_forces(ride(bicycle_model(load_bicycle("benchmark")), 0.0))
+    >>> round(float(sum(load[2] for load in loads.values())) / 9.81, 9)  # kg
+    94.0
+    """
+    by_wheel = split_wheel_forces(state.model.system, accelerations(state, inputs).multipliers[None])
+    return dict(zip((wheel.name for wheel in state.model.system.wheels), by_wheel[0], strict=True))
+
+
+def split_wheel_forces(system: System, multipliers: Array) -> Array:
+    """Return (k, wheels, 3) longitudinal, lateral and normal forces from multipliers (k, rows), N."""
+    holonomic, wheels = len(system.holonomic_rows), len(system.wheels)
+    normal = -multipliers[:, holonomic - wheels : holonomic]
+    rolling = multipliers[:, holonomic:].reshape(len(multipliers), wheels, 2)
+    return np.concatenate([rolling, normal[:, :, None]], axis=2)
+
+
+def _refuse_massless(state: State) -> None:
+    """Refuse a state in which some independent speed, or a combination of them, moves no mass."""
+    jacobian, mass = state.model.kinetics(state.q, state.parameters)
+    span = span_of(state.partition, jacobian)
+    carried = span.T @ mass @ span
+    size = np.sqrt(np.diag(carried))
+    if not len(size):
+        return
+    if np.all(size > 0.0) and np.linalg.eigvalsh(carried / np.outer(size, size))[0] > MASSLESS:
+        return
+    raise ModelError(
+        "the accelerations are not determined: a freedom has no mass, or the joint angles are singular here "
+        f"(independent speeds: {', '.join(state.freedoms)})"
+    )

@@ -1,0 +1,162 @@
+"""Steady motions: rest, straight running, steady turning, any relative equilibrium, found by Newton's method."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from singletrack.errors import ModelError, unknown_name
+from singletrack.multibody.engine.assembly import assemble, close, span_of
+from singletrack.multibody.engine.dynamics import accelerations, input_vector
+from singletrack.multibody.engine.model import State
+from singletrack.multibody.engine.variations import vary
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+    from singletrack.arrays import Array
+    from singletrack.multibody.engine.model import Model
+    from singletrack.multibody.engine.variations import Variations
+
+__all__ = ["SteadyMotion", "steady_motion"]
+
+STEPS = 60
+STEADY = 1e-10
+
+
+@dataclass(frozen=True, eq=False)
+class SteadyMotion:
+    """A state whose independent speeds do not change, and the inputs that keep it so."""
+
+    state: State
+    inputs: dict[str, float] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, eq=False)
+class _Search:
+    """What is sought, as indices: coordinates, independent speeds, inputs; and which coordinates must rest."""
+
+    coordinates: list[int]
+    speeds: list[int]
+    inputs: list[int]
+    resting: list[int]
+
+
+def steady_motion(
+    model: Model,
+    coordinates: Mapping[str, float] | None = None,
+    rates: Mapping[str, float] | None = None,
+    *,
+    resting: Sequence[str],
+    guess: Mapping[str, float] | None = None,
+    guess_rates: Mapping[str, float] | None = None,
+    inputs: Mapping[str, float] | None = None,
+    adjust: Sequence[str] = (),
+    parameters: Mapping[str, float] | None = None,
+) -> SteadyMotion:
+    """Find a motion in which the coordinates that matter rest and no independent speed changes.
+
+    Parameters
+    ----------
+    model
+        The machine.
+    coordinates, rates
+        What is given: coordinates, and rates of independent speeds.
+    resting
+        Names of the independent coordinates that matter and stay constant, such as lean and steer; those not
+        given are sought, and their rates are zero.
+    guess, guess_rates
+        Where to start with the others. The motion found is the nearest of a family in the sense of Gauss-Newton.
+    inputs, adjust
+        Constant inputs, and names of inputs to be sought, such as the torque that holds a turn.
+    parameters
+        Values of parameters.
+
+    Raises
+    ------
+    ModelError
+        Where none is found, with what is left of the accelerations.
+
+    Examples
+    --------
+    >>> from singletrack.multibody import Body, System, build, revolute
+    >>> bob = Body("bob", 1.0, (0, 0, 1))
+    >>> swing = revolute("swing", "ground", "bob", (0, 0, 0), (0, 1, 0), stiffness=9.81, preload=9.81)
+    >>> found = steady_motion(build(System([bob], [swing])), resting=["swing"], guess={"swing": 0.4})
+    >>> round(float(found.state["swing"] + np.sin(found.state["swing"])), 12)
+    1.0
+    """
+    given = dict(coordinates or {})
+    start = assemble(model, given, parameters, guess=guess)
+    search = _plan(start, given, rates or {}, resting, adjust)
+    u_i = np.array([(rates or {}).get(n, (guess_rates or {}).get(n, 0.0)) for n in start.freedoms])
+    f = input_vector(model.system, inputs)
+    state = _with_speeds(start, start.q, u_i)
+    last = np.inf
+    for _ in range(STEPS):
+        response, residual, variations = _residual(state, f, search)
+        left = float(np.max(abs(residual), initial=0.0)) / max(1.0, float(np.max(abs(response))))
+        last, better = left, left < 0.5 * last
+        if left <= STEADY and not better:
+            names = [given_input.name for given_input in model.system.inputs]
+            return SteadyMotion(state, dict(zip(names, f.tolist(), strict=True)))
+        state, f = _step(state, f, search, residual, variations)
+    free = ", ".join(f"{n}'" for n in state.freedoms)
+    raise ModelError(f"no steady motion found near the guess: {free} still change by {residual[: len(u_i)]}")
+
+
+def _plan(
+    start: State, given: Mapping[str, float], rates: Mapping[str, float], resting: Sequence[str], adjust: Sequence[str]
+) -> _Search:
+    system, parts = start.model.system, start.partition
+    free = [system.coordinates[i] for i in parts.independent_coordinates]
+    for name in resting:
+        if name not in free:
+            raise ModelError(unknown_name("independent coordinate", name, free))
+    for name in rates:
+        if name not in start.freedoms:
+            raise ModelError(unknown_name("independent speed", name, start.freedoms))
+    known_inputs = [given_input.name for given_input in system.inputs]
+    for name in adjust:
+        if name not in known_inputs:
+            raise ModelError(unknown_name("input", name, known_inputs))
+    return _Search(
+        [free.index(name) for name in resting if name not in given],
+        [i for i, name in enumerate(start.freedoms) if name not in rates],
+        [known_inputs.index(name) for name in adjust],
+        [system.coordinates.index(name) for name in resting],
+    )
+
+
+def _with_speeds(state: State, q: Array, u_i: Array) -> State:
+    jacobian, _ = state.model.kinetics(q, state.parameters)
+    return State(state.model, state.parameters, state.partition, q, span_of(state.partition, jacobian) @ u_i)
+
+
+def _residual(state: State, f: Array, search: _Search) -> tuple[Array, Array, Variations]:
+    """Return all accelerations, what must vanish (independent accelerations, rates at rest) and the derivatives."""
+    names = [given.name for given in state.model.system.inputs]
+    response = accelerations(state, dict(zip(names, f.tolist(), strict=True)))
+    independent = list(state.partition.independent_speeds)
+    residual = np.concatenate([response.a[independent], state.u[search.resting]])
+    return response.a, residual, vary(state, response, f)
+
+
+def _step(state: State, f: Array, search: _Search, residual: Array, v: Variations) -> tuple[State, Array]:
+    drive = v.span.T @ state.model.equations.input_matrix(state.q, state.parameters).full()
+    k, s = search.coordinates, search.speeds
+    moved = np.linalg.solve(v.M, np.hstack([-v.K[:, k], -v.C[:, s], drive[:, search.inputs]]))
+    rates = np.hstack([v.speed_changes[:, k], v.span[:, s], np.zeros((len(state.q), len(search.inputs)))])
+    step = np.linalg.lstsq(np.vstack([moved, rates[search.resting]]), -residual, rcond=1e-11)[0]
+    step *= min(1.0, 0.3 / max(float(np.max(abs(step[: len(k)]), initial=0.0)), 1e-300))
+    parts = state.partition
+    q = state.q.copy()
+    q += v.coordinate_directions[:, k] @ step[: len(k)]
+    q = close(state.model, q, state.parameters, parts.dependent_coordinates)
+    u_i = state.u[list(parts.independent_speeds)]
+    u_i[s] += step[len(k) : len(k) + len(s)]
+    f = f.copy()
+    f[search.inputs] += step[len(k) + len(s) :]
+    return _with_speeds(state, q, u_i), f

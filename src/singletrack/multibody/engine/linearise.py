@@ -1,0 +1,280 @@
+"""Exact linearisation about a steady motion: matrices, state space, and polynomials in speed.
+
+The derivation is in :mod:`singletrack.multibody.engine.variations`. Coordinates that matter to nothing (position,
+heading, wheel angles) are found and left out, so that steady turning, where they grow without bound, has constant
+coefficients too.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from singletrack.arrays import Array
+from singletrack.errors import ModelError, unknown_name
+from singletrack.multibody.engine.assembly import move
+from singletrack.multibody.engine.dynamics import accelerations, input_vector
+from singletrack.multibody.engine.model import State
+from singletrack.multibody.engine.variations import vary
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+    from singletrack.multibody.engine.dynamics import Response
+    from singletrack.multibody.engine.variations import Variations
+
+__all__ = ["Linearisation", "SpeedPolynomials", "linearise", "speed_polynomials"]
+
+NEGLIGIBLE = 1e-10
+
+
+@dataclass(frozen=True, eq=False)
+class Linearisation:
+    """Small motions about a steady motion: ``M du' + C du + K dq = B df``, ``dq' = N du + G dq``.
+
+    Attributes
+    ----------
+    state
+        The steady motion.
+    coordinates
+        Names of the coordinates q that matter, (k,).
+    speeds
+        Names of the independent speeds u, (m,).
+    inputs, outputs
+        Names of inputs (r,) and outputs (o,).
+    M, C, K, B
+        Mass (m, m), damping-like (m, m), stiffness-like (m, k) and input (m, r) matrices.
+    A_matrix, B_matrix, C_matrix, D_matrix
+        State space of (dq, du), shapes (k + m, k + m), (k + m, r), (o, k + m), (o, r).
+    """
+
+    state: State
+    coordinates: tuple[str, ...]
+    speeds: tuple[str, ...]
+    inputs: tuple[str, ...]
+    outputs: tuple[str, ...]
+    M: Array
+    C: Array
+    K: Array
+    B: Array
+    A_matrix: Array
+    B_matrix: Array
+    C_matrix: Array
+    D_matrix: Array
+
+    def eigenvalues(self) -> Array:
+        """Return the eigenvalues of the state space, 1/s, sorted by real, then imaginary part."""
+        return np.sort_complex(np.linalg.eigvals(self.A_matrix))
+
+    def to_control(self) -> Any:
+        """Return the state space as a ``control.StateSpace`` with named states, inputs and outputs."""
+        import control  # slow to import
+
+        states = [*self.coordinates, *(f"{name}'" for name in self.speeds)]
+        matrices = (self.A_matrix, self.B_matrix, self.C_matrix, self.D_matrix)
+        return control.ss(*matrices, states=states, inputs=list(self.inputs), outputs=list(self.outputs))
+
+    def select(self, names: Sequence[str]) -> tuple[Array, Array, Array, Array]:
+        """Return M, C, K, B of some freedoms that move by themselves, such as lean and steer in straight running.
+
+        Raises
+        ------
+        ModelError
+            Where the freedoms are coupled to the others, or are not both coordinates and speeds here.
+        """
+        for name in names:
+            for what, known in (("speed", self.speeds), ("coordinate", self.coordinates)):
+                if name not in known:
+                    raise ModelError(unknown_name(what, name, known))
+        rows = [self.speeds.index(name) for name in names]
+        columns = [self.coordinates.index(name) for name in names]
+        others = [i for i in range(len(self.speeds)) if i not in rows]
+        rest = [i for i in range(len(self.coordinates)) if i not in columns]
+        for matrix, outside in ((self.M, others), (self.C, others), (self.K, rest)):
+            if np.any(abs(matrix[np.ix_(rows, outside)]) > 1e-8 * np.max(abs(matrix), initial=1.0)):
+                raise ModelError(f"{', '.join(names)}: not decoupled from the other freedoms in this motion")
+        pick = np.ix_(rows, rows)
+        return self.M[pick], self.C[pick], self.K[np.ix_(rows, columns)], self.B[rows]
+
+
+def _essential(v: Variations, names: Sequence[str], keep: Sequence[str] | None) -> list[int]:
+    """Return which independent coordinates matter: those that change forces, or the rates of others that do."""
+    if keep is not None:
+        for name in keep:
+            if name not in names:
+                raise ModelError(unknown_name("independent coordinate", name, names))
+        return [names.index(name) for name in keep]
+    scale = max(np.max(abs(v.K), initial=0.0), np.max(abs(v.M), initial=0.0), np.max(abs(v.C), initial=0.0))
+    return [i for i in range(v.K.shape[1]) if np.max(abs(v.K[:, i]), initial=0.0) > NEGLIGIBLE * scale]
+
+
+def linearise(
+    state: State,
+    inputs: Mapping[str, float] | None = None,
+    *,
+    keep: Sequence[str] | None = None,
+    outputs: Sequence[str] | None = None,
+) -> Linearisation:
+    """Linearise the motion about a steady state, exactly.
+
+    Parameters
+    ----------
+    state
+        A steady motion: equilibrium, straight running, steady turning (see :func:`steady_motion`).
+    inputs
+        Constant inputs of the steady motion, by name.
+    keep
+        Names of the coordinates to keep; found automatically where None.
+    outputs
+        Names of coordinates, rates (``"lean'"``) or sensors to observe; by default all coordinates and rates kept.
+
+    Raises
+    ------
+    ModelError
+        Where the state is no steady motion: an independent speed accelerates, or a coordinate that matters moves.
+
+    Examples
+    --------
+    >>> from singletrack.multibody import Body, System, assemble, build, revolute
+    >>> bob = Body("bob", 2.0, (0, 0, 0.5))
+    >>> model = build(System([bob], [revolute("swing", "ground", "bob", (0, 0, 0), (0, 1, 0))]))
+    >>> small = linearise(assemble(model))
+    >>> small.M.tolist(), small.K.tolist()
+    ([[0.5]], [[9.81]])
+    """
+    system = state.model.system
+    response = accelerations(state, inputs)
+    f = input_vector(system, inputs)
+    v = vary(state, response, f)
+    names = [system.coordinates[i] for i in state.partition.independent_coordinates]
+    kept = _essential(v, names, keep)
+    _refuse_unsteady(state, response, [names[i] for i in kept])
+    drive = v.span.T @ state.model.equations.input_matrix(state.q, state.parameters).full()
+    places = [state.partition.independent_coordinates[i] for i in kept]
+    coordinates, speeds = tuple(names[i] for i in kept), state.freedoms
+    K = v.K[:, kept]
+    rate_of_speeds, rate_of_coordinates = v.span[places], v.speed_changes[np.ix_(places, kept)]
+    solved = np.linalg.solve(v.M, np.hstack([-K, -v.C, drive]))
+    k, m, r = len(kept), len(speeds), drive.shape[1]
+    A = np.block([[rate_of_coordinates, rate_of_speeds], [solved[:, : k + m]]])
+    B = np.vstack([np.zeros((k, r)), solved[:, k + m :]])
+    observed = tuple(outputs) if outputs is not None else (*coordinates, *(f"{name}'" for name in speeds))
+    directions = np.hstack([v.coordinate_directions[:, kept], np.zeros_like(v.span)])
+    speed_directions = np.hstack([v.speed_changes[:, kept], v.span])
+    seen = _observe(state, observed, directions, speed_directions)
+    return Linearisation(
+        state,
+        coordinates,
+        speeds,
+        tuple(given.name for given in system.inputs),
+        observed,
+        v.M,
+        v.C,
+        K,
+        drive,
+        A,
+        B,
+        seen,
+        np.zeros((len(observed), r)),
+    )
+
+
+def _refuse_unsteady(state: State, response: Response, kept: Sequence[str]) -> None:
+    scale = max(1.0, float(np.max(abs(state.u), initial=0.0)) ** 2)
+    for i in state.partition.independent_speeds:
+        if abs(response.a[i]) > 1e-7 * scale:
+            raise ModelError(
+                f"not a steady motion: {state.model.system.coordinates[i]} accelerates by {response.a[i]:.3g}; "
+                "find one with steady_motion"
+            )
+    for name in kept:
+        if abs(state.rate(name)) > 1e-9 * scale:
+            raise ModelError(f"not a steady motion: {name} matters, and changes at the rate {state.rate(name):.3g}")
+
+
+def _observe(state: State, names: Sequence[str], dq: Array, du: Array) -> Array:
+    """Return the derivatives (outputs, directions) of named outputs along directions of coordinates and speeds."""
+    system = state.model.system
+    sensors = [sensor.name for sensor in system.sensors]
+    sensed = np.zeros((len(sensors), dq.shape[1]))
+    if any(name in sensors for name in names):
+        by_q, by_u = _sensor_gradients(state)
+        sensed = by_q @ dq + by_u @ du
+    rows = []
+    for name in names:
+        if name in sensors:
+            rows.append(sensed[sensors.index(name)])
+        elif name.removesuffix("'") in system.coordinates:
+            place = system.coordinates.index(name.removesuffix("'"))
+            rows.append(du[place] if name.endswith("'") else dq[place])
+        else:
+            raise ModelError(unknown_name("output", name, (*system.coordinates, *sensors)))
+    return np.array(rows).reshape(len(names), dq.shape[1])
+
+
+def _sensor_gradients(state: State) -> tuple[Array, Array]:
+    cache: dict[Any, Any] = state.model.cache
+    if "sensor gradients" not in cache:
+        cache["sensor gradients"] = state.model.equations.sensors.jacobian()
+    zero = np.zeros(len(state.model.system.sensors))
+    out = cache["sensor gradients"](state.q, state.u, state.parameters, zero)
+    return out[0].full(), out[1].full()
+
+
+@dataclass(frozen=True, eq=False)
+class SpeedPolynomials:
+    """Straight running at any speed v and gravity g: ``M q'' + (C0 + v C1) q' + (S0 + g K0 + v^2 K2) q = B f``.
+
+    C0 and S0 come from dampers and springs; all matrices are (k, k), B is (k, inputs).
+    """
+
+    M: Array
+    C0: Array
+    C1: Array
+    S0: Array
+    K0: Array
+    K2: Array
+    B: Array
+
+
+def speed_polynomials(upright: State, rolling: Mapping[str, float], names: Sequence[str]) -> SpeedPolynomials:
+    """Return the linearised equations of straight running as exact polynomials in speed and gravity.
+
+    The equations of a machine are quadratic in its speeds and linear in gravity, so the coefficients follow exactly
+    from the linearisations at rest and at unit speed, without and with gravity.
+
+    Parameters
+    ----------
+    upright
+        The machine at rest.
+    rolling
+        Rates of independent speeds at a forward speed of 1 m/s, such as ``{"rear wheel": -1 / radius}``.
+    names
+        The freedoms to keep, such as ``("lean", "steer")``.
+
+    Examples
+    --------
+    >>> from singletrack import load_bicycle
+    >>> from singletrack.multibody import assemble, bicycle_model
+    >>> at_rest = assemble(bicycle_model(load_bicycle("benchmark")))
+    >>> speed_polynomials(at_rest, {"rear wheel": -1 / 0.3}, ("lean", "steer")).K2.round(6).tolist()
+    [[0.0, 76.597346], [0.0, 2.654315]]
+    """
+    weightless = upright.parameters.copy()
+    weightless[0] = 0.0
+    heavy = upright.parameters.copy()
+    heavy[0] = 1.0
+    still = linearise(replace(upright, parameters=weightless), keep=names).select(names)
+    heavy_still = linearise(replace(upright, parameters=heavy), keep=names).select(names)
+    moving = linearise(move(replace(upright, parameters=weightless), rolling), keep=names).select(names)
+    return SpeedPolynomials(
+        M=still[0],
+        C0=still[1],
+        C1=moving[1] - still[1],
+        S0=still[2],
+        K0=heavy_still[2] - still[2],
+        K2=moving[2] - still[2],
+        B=still[3],
+    )

@@ -1,0 +1,101 @@
+"""A linear model with its questions as methods: the thin face above the rooms that answer them."""
+
+from __future__ import annotations
+
+import dataclasses
+from typing import TYPE_CHECKING, Self
+
+from singletrack import closed_form
+from singletrack.linear import CriticalSpeeds, Modes, StateSpace, critical_speeds, eigenvalues, modes, state_space
+from singletrack.model import LinearModel
+
+if TYPE_CHECKING:
+    from singletrack.arrays import Array
+    from singletrack.parameters import Bicycle, Rider
+
+__all__ = ["CoefficientMatrices", "coefficients"]
+
+
+class CoefficientMatrices(LinearModel):
+    """A :class:`~singletrack.model.LinearModel` that can be asked directly; attributes as there.
+
+    Examples
+    --------
+    >>> from singletrack import coefficients, load_bicycle
+    >>> model = coefficients(load_bicycle("benchmark"))
+    >>> model.eigenvalues(5.0).shape, model.critical_speeds().weave
+    ((1, 4), [4.292382536...])
+    """
+
+    @classmethod
+    def of(cls, model: LinearModel) -> Self:
+        """Return a model of any maker as one that can be asked."""
+        return cls(**{field.name: getattr(model, field.name) for field in dataclasses.fields(LinearModel)})
+
+    def eigenvalues(self, speeds: Array) -> Array:
+        """Return the eigenvalues at forward speeds, sorted by real then imaginary part.
+
+        Parameters
+        ----------
+        speeds : array, shape () or (k,)
+            In m/s.
+
+        Returns
+        -------
+        complex array, shape (..., k, 2 n)
+            In 1/s.
+        """
+        return eigenvalues(self, speeds)
+
+    def modes(self, speeds: Array) -> Modes:
+        """Return the eigenvalues as named modes, followed through the speeds (see :class:`Modes`)."""
+        return modes(self, speeds)
+
+    def critical_speeds(self) -> CriticalSpeeds:
+        """Return weave and capsize speeds and the stable ranges (see :class:`CriticalSpeeds`)."""
+        return critical_speeds(self)
+
+    def state_space(self, speed: Array) -> StateSpace:
+        """Return the equations at one or several forward speeds in m/s as first-order systems (:class:`StateSpace`)."""
+        return state_space(self, speed)
+
+
+def coefficients(
+    bicycle: Bicycle, rider: Rider | None = None, posture: str = "rigid", shoulder: str | None = None
+) -> CoefficientMatrices:
+    """Return the linearised equations of motion of a bicycle, alone or with a rider.
+
+    ``M q'' + (C0 + v C1) q' + (S0 + g K0 + v^2 K2) q = f`` with q = (lean, steer, ...) in rad,
+    f = (lean torque, steer torque, ...) in N m.
+
+    Parameters
+    ----------
+    bicycle : Bicycle
+    rider : Rider, optional
+        Without one, the bicycle as measured.
+    posture : {"rigid", "leaned", "upright"}
+        ``rigid``: hands free; ``leaned``: stretched arms, twisting torso; ``upright``: flexed arms, still torso.
+    shoulder : {"abduction", "axial"}, optional
+        Second axis of the shoulder joint; by default abduction for ``leaned``, axial for ``upright``.
+
+    Returns
+    -------
+    CoefficientMatrices
+        Each matrix of shape (..., n, n), where (...) is what the parameters broadcast to.
+
+    Raises
+    ------
+    InputError
+        For an unknown posture or shoulder, a bicycle without frame geometry, a rider without forward lean angle;
+        for JAX arrays in single precision.
+    PostureError
+        If arms or legs do not reach, or the arms cannot follow the steer.
+
+    Examples
+    --------
+    >>> from singletrack import coefficients, load_bicycle, load_rider
+    >>> model = coefficients(load_bicycle("browser"), load_rider("rider-a"), posture="upright")
+    >>> round(float(model.M[1, 1]), 4), round(float(model.gravity * model.K0[1, 1]), 4)
+    (0.4614, 2.3268)
+    """
+    return CoefficientMatrices.of(closed_form.coefficients(bicycle, rider, posture, shoulder))
