@@ -16,7 +16,6 @@ from typing import Annotated, Any, Literal
 import numpy as np
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
-import singletrack
 from singletrack.errors import InputError, unknown_name
 from singletrack.files.speeds import parse_speeds
 from singletrack.library import load_bicycle, load_rider, shipped
@@ -25,6 +24,7 @@ from singletrack.library.load import read_text
 from singletrack.parameters import Bicycle, Rider
 from singletrack.sweep.designs import Designs, make_designs
 from singletrack.sweep.vary import parse_variation
+from singletrack.version import __version__
 
 __all__ = ["KEEP", "Study", "load_study"]
 
@@ -89,7 +89,7 @@ class Study:
         """Return all that determines the results, for provenance: plain values, SI units."""
         rider = None if self.rider is None else _record_values(self.rider)
         return {
-            "singletrack": singletrack.__version__,
+            "singletrack": __version__,
             "bicycle": _record_values(self.bicycle),
             "rider": rider,
             "posture": self.posture,
