@@ -227,8 +227,9 @@ def _sensor_gradients(state: State) -> tuple[Array, Array]:
 def speed_polynomials(upright: State, rolling: Mapping[str, float], names: Sequence[str]) -> LinearModel:
     """Return the linear model of straight running: the equations as exact polynomials in speed and gravity.
 
-    C0 and S0 come from dampers and springs. The equations of a machine are quadratic in its speeds and linear in gravity, so the coefficients follow exactly
-    from the linearisations at rest and at unit speed, without and with gravity.
+    C0 and S0 come from dampers and springs. The equations of a machine are quadratic in its speeds and linear in
+    gravity, so the coefficients follow exactly from the linearisations at rest and at unit speed, without and with
+    gravity.
 
     Parameters
     ----------
