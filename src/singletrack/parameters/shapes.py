@@ -68,4 +68,4 @@ def segment_shape(name: str, values: object) -> SegmentShape:
     try:
         return SegmentShape(**{field: parse_quantity(values[field], "").value for field in wanted})
     except InputError as error:
-        raise InputError(f"segments.{name}: {error}") from None
+        raise error.at(f"segments.{name}") from None

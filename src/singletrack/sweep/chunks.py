@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -64,8 +63,7 @@ def compute_chunk(task: Task, rows: np.ndarray) -> tuple[dict[str, np.ndarray], 
         arrays = _results(model, study, len(rows))
     faults: dict[str, np.ndarray] = {}
     for fault in model.faults:
-        kind = re.sub(r"\{(\w+)[^}]*\}", r"<\1>", fault.text)
-        faults[kind] = faults.get(kind, np.False_) | np.broadcast_to(np.asarray(fault.bad), (len(rows),))
+        faults[fault.kind] = faults.get(fault.kind, np.False_) | np.broadcast_to(np.asarray(fault.bad), (len(rows),))
     for values in arrays.values():
         values[~np.broadcast_to(model.valid, (len(rows),))] = np.nan
     return arrays, faults

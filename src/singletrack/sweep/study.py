@@ -175,9 +175,9 @@ def _name_or_file(kind: str, found: str, study: Path) -> str | Path:
 def _speeds(found: str | float | list[float], place: str) -> np.ndarray:
     if isinstance(found, str):
         try:
-            return parse_speeds(found)
+            return parse_speeds(found, "speeds =")
         except InputError as error:
-            raise InputError(f"{place}: {str(error).replace('--speeds', 'speeds =')}") from None
+            raise error.at(place) from None
     speeds = np.atleast_1d(np.asarray(found, dtype=float))
     if not len(speeds) or not np.isfinite(speeds).all() or (speeds < 0).any():
         raise InputError(f"{place}: speeds = {found}, must be finite numbers of zero or more, in m/s")
