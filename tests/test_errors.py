@@ -11,7 +11,8 @@ from hypothesis import strategies as st
 
 from singletrack import InputError, PostureError, SingletrackError, coefficients, load_bicycle, load_rider
 from singletrack.arrays import Fault, refuse_single
-from singletrack.library.load import override, parse_record
+from singletrack.files.toml_read import parse_record
+from singletrack.library.load import override
 
 STRATOS, RIDER = load_bicycle("stratos"), load_rider("rider-a")
 TEXTS = st.text(min_size=1, max_size=20)

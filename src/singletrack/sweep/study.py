@@ -16,15 +16,14 @@ from typing import Annotated, Any, Literal
 import numpy as np
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
-import singletrack
 from singletrack.errors import InputError, unknown_name
+from singletrack.files.source import place_of, read_text
 from singletrack.files.speeds import parse_speeds
 from singletrack.library import load_bicycle, load_rider, shipped
-from singletrack.library.load import _place as place_in_file  # the same words for the same place
-from singletrack.library.load import read_text
 from singletrack.parameters import Bicycle, Rider
 from singletrack.sweep.designs import Designs, make_designs
 from singletrack.sweep.vary import parse_variation
+from singletrack.version import __version__
 
 __all__ = ["KEEP", "Study", "load_study"]
 
@@ -89,7 +88,7 @@ class Study:
         """Return all that determines the results, for provenance: plain values, SI units."""
         rider = None if self.rider is None else _record_values(self.rider)
         return {
-            "singletrack": singletrack.__version__,
+            "singletrack": __version__,
             "bicycle": _record_values(self.bicycle),
             "rider": rider,
             "posture": self.posture,
@@ -186,7 +185,7 @@ def _speeds(found: str | float | list[float], place: str) -> np.ndarray:
 
 def _place(path: Path, text: str, location: tuple[int | str, ...]) -> str:
     name = next((str(part) for part in reversed(location) if isinstance(part, str) and f"{part}" in text), "")
-    return place_in_file(str(path), text, name) if name else str(path)
+    return place_of(str(path), text, name) if name else str(path)
 
 
 def _words(problem: Any) -> str:
