@@ -17,10 +17,9 @@ import numpy as np
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from singletrack.errors import InputError, unknown_name
+from singletrack.files.source import place_of, read_text
 from singletrack.files.speeds import parse_speeds
 from singletrack.library import load_bicycle, load_rider, shipped
-from singletrack.library.load import _place as place_in_file  # the same words for the same place
-from singletrack.library.load import read_text
 from singletrack.parameters import Bicycle, Rider
 from singletrack.posture import Options
 from singletrack.sweep.designs import Designs, make_designs
@@ -192,7 +191,7 @@ def _speeds(found: str | float | list[float], place: str) -> np.ndarray:
 
 def _place(path: Path, text: str, location: tuple[int | str, ...]) -> str:
     name = next((str(part) for part in reversed(location) if isinstance(part, str) and f"{part}" in text), "")
-    return place_in_file(str(path), text, name) if name else str(path)
+    return place_of(str(path), text, name) if name else str(path)
 
 
 def _words(problem: Any) -> str:
