@@ -59,7 +59,7 @@ def compute_chunk(task: Task, rows: np.ndarray) -> tuple[dict[str, np.ndarray], 
     bicycle = study.bicycle.replace(**changes["bicycle"])
     rider = None if study.rider is None else study.rider.replace(**changes["rider"])
     with np.errstate(all="ignore"):  # faulty designs are flagged
-        model = coefficients(bicycle, rider, study.posture, study.shoulder)
+        model = coefficients(bicycle, rider, study.options)
         arrays = _results(model, study, len(rows))
     faults: dict[str, np.ndarray] = {}
     for fault in model.faults:

@@ -21,6 +21,7 @@ from singletrack.files.source import place_of, read_text
 from singletrack.files.speeds import parse_speeds
 from singletrack.library import load_bicycle, load_rider, shipped
 from singletrack.parameters import Bicycle, Rider
+from singletrack.posture import Options
 from singletrack.sweep.designs import Designs, make_designs
 from singletrack.sweep.vary import parse_variation
 from singletrack.version import __version__
@@ -83,6 +84,11 @@ class Study:
     designs: Designs
     speeds: np.ndarray
     keep: tuple[str, ...]
+
+    @property
+    def options(self) -> Options:
+        """How the rider sits."""
+        return Options(self.posture, self.shoulder)
 
     def to_dict(self) -> dict[str, Any]:
         """Return all that determines the results, for provenance: plain values, SI units."""
