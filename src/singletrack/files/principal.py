@@ -10,9 +10,9 @@ import math
 from typing import TYPE_CHECKING, Any
 
 from singletrack.errors import InputError
-from singletrack.files.symbols import NAMES
 from singletrack.parameters.bicycle import Bicycle
 from singletrack.parameters.lump import PlanarBody, combine_planar
+from singletrack.parameters.symbols import NAMES
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

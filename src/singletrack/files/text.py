@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from singletrack.errors import InputError
 from singletrack.files.entries import Entries, bicycle_from_entries, rigid_rider_from_entries
 from singletrack.files.numbers import format_number, parse_number
-from singletrack.files.symbols import SYMBOLS
+from singletrack.parameters.symbols import SYMBOLS
 
 if TYPE_CHECKING:
     from singletrack.parameters.bicycle import Bicycle
