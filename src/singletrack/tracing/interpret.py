@@ -142,7 +142,7 @@ class _Interpreter:
             "rsqrt": lambda x: apply("div", one, apply("sqrt", x)),
             "select_n": lambda condition, no, yes: apply("select", condition, no, yes),
         }
-        function = special.get(name, lambda *nodes: apply(name, *nodes))
+        function: Callable[..., int] = special.get(name, lambda *nodes: apply(name, *nodes))
         arrays = np.broadcast_arrays(*operands)
         flat = [function(*(int(node) for node in nodes)) for nodes in zip(*(a.ravel() for a in arrays), strict=True)]
         return np.array(flat, dtype=np.intp).reshape(arrays[0].shape)
@@ -159,7 +159,7 @@ class _Interpreter:
                 places.append(start + np.arange(operand.size).reshape(operand.shape))
                 start += operand.size
         bind: Any = equation.primitive.bind
-        result = bind(*map(jax.numpy.asarray, places), **equation.params)
+        result = bind(*(jax.numpy.asarray(place) for place in places), **equation.params)
         pool = np.concatenate([a.ravel() for a in moved])
         results = result if equation.primitive.multiple_results else [result]
         return [pool[np.asarray(found)] for found in results]

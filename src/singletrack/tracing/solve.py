@@ -17,7 +17,7 @@ def _minus_product(graph: Graph, a: int, b: int, c: int) -> int:
 
 
 def lu(graph: Graph, matrices: np.ndarray) -> list[np.ndarray]:
-    """Return the triangular factors, pivots and permutations of matrices of nodes, shape (..., n, n).
+    """Return the triangular factors, pivots and permutations of matrices (..., n, n) of nodes of a graph.
 
     Columns are eliminated in order; of the rows left, the one with the largest nominal entry becomes the next.
     """
@@ -40,7 +40,7 @@ def lu(graph: Graph, matrices: np.ndarray) -> list[np.ndarray]:
 
 
 def permutation(graph: Graph, pivots: np.ndarray, size: int) -> np.ndarray:
-    """Return the permutations (..., size) that row exchanges (..., k) amount to, all of them nodes of constants."""
+    """Return the permutations (..., size) that row exchanges, pivots (..., k), amount to: constants of a graph."""
     flat = pivots.reshape(-1, pivots.shape[-1])
     orders = np.tile(np.arange(size), (len(flat), 1))
     for order, exchanges in zip(orders, flat, strict=True):
@@ -52,7 +52,7 @@ def permutation(graph: Graph, pivots: np.ndarray, size: int) -> np.ndarray:
 
 
 def triangular_solve(graph: Graph, a: np.ndarray, b: np.ndarray, params: dict[str, Any]) -> np.ndarray:
-    """Return x with a x = b (or x a = b), a (..., n, n), b (..., n, k), nodes; params as JAX means them."""
+    """Return x with a x = b (or x a = b), a (..., n, n), b (..., n, k), nodes of a graph; params are JAX's."""
     if not params["left_side"]:
         turned = {**params, "left_side": True, "transpose_a": not params["transpose_a"]}
         return triangular_solve(graph, a, b.swapaxes(-1, -2), turned).swapaxes(-1, -2)
