@@ -101,6 +101,7 @@ def show(
     """
     from singletrack.library import load_rider
     from singletrack.parameters import Rider
+    from singletrack.posture import Options
     from singletrack.present.printing import print_oddities, print_record, print_results
 
     record = _load(name_or_path)
@@ -120,7 +121,7 @@ def show(
     print_record(console, record)
     if person is not None:
         print_record(console, person)
-    print_results(console, record, person, posture, shoulder)
+    print_results(console, record, person, Options(posture, shoulder))
     print_oddities(console, record, person)
 
 

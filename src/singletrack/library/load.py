@@ -131,7 +131,7 @@ def override(record: R, texts: dict[str, str], where: str = "--set") -> R:
         try:
             quantity = parse_quantity(text, descriptions[name].unit)
         except InputError as error:
-            raise InputError(f"{where} {name}: {error}") from None
+            raise error.at(f"{where} {name}") from None
         changes[name] = quantity.value
         deviations.pop(name, None)
         if quantity.deviation is not None:
@@ -139,4 +139,4 @@ def override(record: R, texts: dict[str, str], where: str = "--set") -> R:
     try:
         return dataclasses.replace(record, **changes, standard_deviations=deviations)
     except SingletrackError as error:
-        raise type(error)(f"{where}: {str(error).removeprefix(f'{record.name}: ')}") from None
+        raise error.at(where) from None

@@ -21,6 +21,7 @@ from singletrack.files.source import place_of, read_text
 from singletrack.files.speeds import parse_speeds
 from singletrack.library import load_bicycle, load_rider, shipped
 from singletrack.parameters import Bicycle, Rider
+from singletrack.posture import Options
 from singletrack.sweep.designs import Designs, make_designs
 from singletrack.sweep.vary import parse_variation
 from singletrack.version import __version__
@@ -83,6 +84,11 @@ class Study:
     designs: Designs
     speeds: np.ndarray
     keep: tuple[str, ...]
+
+    @property
+    def options(self) -> Options:
+        """How the rider sits."""
+        return Options(self.posture, self.shoulder)
 
     def to_dict(self) -> dict[str, Any]:
         """Return all that determines the results, for provenance: plain values, SI units."""
@@ -174,9 +180,9 @@ def _name_or_file(kind: str, found: str, study: Path) -> str | Path:
 def _speeds(found: str | float | list[float], place: str) -> np.ndarray:
     if isinstance(found, str):
         try:
-            return parse_speeds(found)
+            return parse_speeds(found, "speeds =")
         except InputError as error:
-            raise InputError(f"{place}: {str(error).replace('--speeds', 'speeds =')}") from None
+            raise error.at(place) from None
     speeds = np.atleast_1d(np.asarray(found, dtype=float))
     if not len(speeds) or not np.isfinite(speeds).all() or (speeds < 0).any():
         raise InputError(f"{place}: speeds = {found}, must be finite numbers of zero or more, in m/s")
