@@ -187,7 +187,7 @@ def _with_rigid_rider(record: Bicycle | Rider, path: str | Path) -> Bicycle:
     from singletrack.files.source import read_text
     from singletrack.files.text import read_rigid_rider
     from singletrack.parameters import Bicycle
-    from singletrack.parameters.lump import with_rigid_rider
+    from singletrack.parameters.bodies import with_rigid_rider
 
     if not isinstance(record, Bicycle):
         raise InputError(f"{record.name}: is a rider, must be a bicycle to put the rigid rider {path} on")
