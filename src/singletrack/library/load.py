@@ -47,8 +47,8 @@ def load_bicycle(name_or_path: str | Path) -> Bicycle:
     Parameters
     ----------
     name_or_path : str or path
-        A shipped name (``benchmark``, ``stratos``, ``browser``, ``kooijman-2008``) or a file: TOML, a parameter text file or raw
-        measurements of BicycleParameters, one of its YAML parameter sets.
+        A shipped name (``benchmark``, ``stratos``, ``browser``, ``kooijman-2008``) or a file: TOML, a parameter text
+        file or raw measurements of BicycleParameters, one of its YAML parameter sets.
 
     Raises
     ------
