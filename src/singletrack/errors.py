@@ -185,6 +185,15 @@ def unknown_name(what: str, name: str, known: Iterable[str]) -> str:
 def unknown(what: str, name: str, known: Iterable[str], place: str = "") -> InputError:
     """Return the error for a name that is not known; its message is that of :func:`unknown_name`.
 
+    Parameters
+    ----------
+    what : str
+        What the name should be.
+    name : str
+    known : iterable of str
+    place : str
+        Where it stands.
+
     >>> error = unknown("posture", "uprite", ["rigid", "upright"])
     >>> error.parameters, error.allowed
     (('uprite',), ('rigid', 'upright'))

@@ -17,7 +17,7 @@ from singletrack.files.text import read_rigid_rider
 from singletrack.files.yeadon import read_configuration, read_yeadon
 from singletrack.library.load import load_any
 from singletrack.parameters import Bicycle, Rider
-from singletrack.parameters.lump import with_rigid_rider
+from singletrack.parameters.bodies import with_rigid_rider
 from singletrack.parameters.symbols import MODEL_SYMBOLS, NAMES
 
 __all__ = ["run"]

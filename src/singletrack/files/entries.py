@@ -8,8 +8,8 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, TypeVar
 
 from singletrack.errors import InputError, SingletrackError, unknown_name
+from singletrack.mechanics.rigid import PlanarBody
 from singletrack.parameters.bicycle import Bicycle
-from singletrack.parameters.lump import PlanarBody
 from singletrack.parameters.symbols import MODEL_SYMBOLS, NAMES, SYMBOLS
 from singletrack.parameters.units import Quantity
 
