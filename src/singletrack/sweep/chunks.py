@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -60,12 +59,11 @@ def compute_chunk(task: Task, rows: np.ndarray) -> tuple[dict[str, np.ndarray], 
     bicycle = study.bicycle.replace(**changes["bicycle"])
     rider = None if study.rider is None else study.rider.replace(**changes["rider"])
     with np.errstate(all="ignore"):  # faulty designs are flagged
-        model = coefficients(bicycle, rider, study.posture, study.shoulder)
+        model = coefficients(bicycle, rider, study.options)
         arrays = _results(model, study, len(rows))
     faults: dict[str, np.ndarray] = {}
     for fault in model.faults:
-        kind = re.sub(r"\{(\w+)[^}]*\}", r"<\1>", fault.text)
-        faults[kind] = faults.get(kind, np.False_) | np.broadcast_to(np.asarray(fault.bad), (len(rows),))
+        faults[fault.kind] = faults.get(fault.kind, np.False_) | np.broadcast_to(np.asarray(fault.bad), (len(rows),))
     for values in arrays.values():
         values[~np.broadcast_to(model.valid, (len(rows),))] = np.nan
     return arrays, faults

@@ -16,15 +16,15 @@ from typing import Annotated, Any, Literal
 import numpy as np
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
-import singletrack
 from singletrack.errors import InputError, unknown_name
+from singletrack.files.source import place_of, read_text
 from singletrack.files.speeds import parse_speeds
 from singletrack.library import load_bicycle, load_rider, shipped
-from singletrack.library.load import _place as place_in_file  # the same words for the same place
-from singletrack.library.load import read_text
 from singletrack.parameters import Bicycle, Rider
+from singletrack.posture import Options
 from singletrack.sweep.designs import Designs, make_designs
 from singletrack.sweep.vary import parse_variation
+from singletrack.version import __version__
 
 __all__ = ["KEEP", "Study", "load_study"]
 
@@ -85,11 +85,16 @@ class Study:
     speeds: np.ndarray
     keep: tuple[str, ...]
 
+    @property
+    def options(self) -> Options:
+        """How the rider sits."""
+        return Options(self.posture, self.shoulder)
+
     def to_dict(self) -> dict[str, Any]:
         """Return all that determines the results, for provenance: plain values, SI units."""
         rider = None if self.rider is None else _record_values(self.rider)
         return {
-            "singletrack": singletrack.__version__,
+            "singletrack": __version__,
             "bicycle": _record_values(self.bicycle),
             "rider": rider,
             "posture": self.posture,
@@ -175,9 +180,9 @@ def _name_or_file(kind: str, found: str, study: Path) -> str | Path:
 def _speeds(found: str | float | list[float], place: str) -> np.ndarray:
     if isinstance(found, str):
         try:
-            return parse_speeds(found)
+            return parse_speeds(found, "speeds =")
         except InputError as error:
-            raise InputError(f"{place}: {str(error).replace('--speeds', 'speeds =')}") from None
+            raise error.at(place) from None
     speeds = np.atleast_1d(np.asarray(found, dtype=float))
     if not len(speeds) or not np.isfinite(speeds).all() or (speeds < 0).any():
         raise InputError(f"{place}: speeds = {found}, must be finite numbers of zero or more, in m/s")
@@ -186,7 +191,7 @@ def _speeds(found: str | float | list[float], place: str) -> np.ndarray:
 
 def _place(path: Path, text: str, location: tuple[int | str, ...]) -> str:
     name = next((str(part) for part in reversed(location) if isinstance(part, str) and f"{part}" in text), "")
-    return place_in_file(str(path), text, name) if name else str(path)
+    return place_of(str(path), text, name) if name else str(path)
 
 
 def _words(problem: Any) -> str:
