@@ -25,6 +25,7 @@ __all__ = ["roots_into"]
 
 # Division as NumPy does it: no exceptions, hence no branches. No fast-math: the bits stay NumPy's.
 _OPTIONS: Any = {"error_model": "numpy", "nogil": True}
+_INLINE: Any = {**_OPTIONS, "forceinline": True}
 
 
 def _where(condition: bool, yes: float, no: float) -> float:
@@ -37,7 +38,7 @@ def _sqrt(x: float) -> float:
 
 def _register(function: Callable[..., Any]) -> None:
     """Tell numba to compile a plain function where compiled code calls it."""
-    overload(function, jit_options={**_OPTIONS, "forceinline": True}, strict=False)(lambda *_: function)
+    overload(function, jit_options=_INLINE, strict=False)(lambda *_: function)
 
 
 def _block_loop(stamp: str) -> Callable[..., None]:
