@@ -13,10 +13,11 @@ from singletrack import InputError, coefficients, load_bicycle
 from singletrack.files.numbers import format_number, parse_number
 from singletrack.files.parameter_sets import read_parameter_set, write_parameter_set
 from singletrack.files.principal import principal_values
-from singletrack.files.symbols import NAMES, SYMBOLS
 from singletrack.files.text import read_bicycle_text, read_entries, read_rigid_rider, write_bicycle_text
 from singletrack.mechanics import Body, combine
-from singletrack.parameters.lump import PlanarBody, with_rigid_rider
+from singletrack.mechanics.rigid import PlanarBody
+from singletrack.parameters.bodies import with_rigid_rider
+from singletrack.parameters.symbols import NAMES, SYMBOLS
 
 NUMBER = re.compile(r"[+-]?\d+\.?\d*(?:e[+-]?\d+)?", re.IGNORECASE)
 

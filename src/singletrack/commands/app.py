@@ -84,9 +84,10 @@ def _model(
     title = bicycle.name if rider is None else f"{bicycle.name} with {rider.name}, {posture.value}"
     if engine is EngineName.multibody:
         from singletrack.multibody import coefficients as derived
+        from singletrack.posture import Options
         from singletrack.public import CoefficientMatrices
 
-        return CoefficientMatrices.of(derived(bicycle, rider, posture.value, shoulder_name)), title
+        return CoefficientMatrices.of(derived(bicycle, rider, Options(posture.value, shoulder_name))), title
     from singletrack.public import coefficients as closed_form
 
     return closed_form(bicycle, rider, posture.value, shoulder_name), title

@@ -63,7 +63,8 @@ def schema(kind: str, output: str | Path | None = None) -> None:
 
 def _load(name_or_path: str | Path, configuration: str | Path | None = None) -> Bicycle | Rider:
     """Load whichever of a bicycle and a rider it is; a rider by Yeadon's measurements with a configuration."""
-    from singletrack.library.load import load_any, read_text
+    from singletrack.files.source import read_text
+    from singletrack.library.load import load_any
 
     if configuration is None:
         return load_any(name_or_path)
@@ -100,6 +101,7 @@ def show(
     """
     from singletrack.library import load_rider
     from singletrack.parameters import Rider
+    from singletrack.posture import Options
     from singletrack.present.printing import print_oddities, print_record, print_results
 
     record = _load(name_or_path)
@@ -119,7 +121,7 @@ def show(
     print_record(console, record)
     if person is not None:
         print_record(console, person)
-    print_results(console, record, person, posture, shoulder)
+    print_results(console, record, person, Options(posture, shoulder))
     print_oddities(console, record, person)
 
 
@@ -182,10 +184,10 @@ def convert(
 
 
 def _with_rigid_rider(record: Bicycle | Rider, path: str | Path) -> Bicycle:
+    from singletrack.files.source import read_text
     from singletrack.files.text import read_rigid_rider
-    from singletrack.library.load import read_text
     from singletrack.parameters import Bicycle
-    from singletrack.parameters.lump import with_rigid_rider
+    from singletrack.parameters.bodies import with_rigid_rider
 
     if not isinstance(record, Bicycle):
         raise InputError(f"{record.name}: is a rider, must be a bicycle to put the rigid rider {path} on")
@@ -202,7 +204,7 @@ def _note_losses(console: Console, record: Bicycle) -> None:
 
 
 def _model_names() -> list[str]:
-    from singletrack.files.symbols import MODEL_SYMBOLS, NAMES
+    from singletrack.parameters.symbols import MODEL_SYMBOLS, NAMES
 
     return [NAMES[symbol] for symbol in MODEL_SYMBOLS]
 
@@ -232,14 +234,14 @@ def measure(
     InputError
         Names file, line, measurement, what was found and what is allowed.
     """
+    from singletrack.files.measured import read_measured
+    from singletrack.files.source import read_text
     from singletrack.library import load_bicycle, shipped
-    from singletrack.library.load import read_text
-    from singletrack.measuring.pendulums import measure as make
     from singletrack.present.printing import print_measured, print_measured_speeds, print_oddities
 
     if not Path(path).exists():
         raise InputError(f"{path}: there is no such file")
-    found = make(read_text(Path(path)), str(path), centre_fit)
+    found = read_measured(read_text(Path(path)), str(path), centre_fit)
     name = found.bicycle.name if compare is None and found.bicycle.name in shipped("bicycle") else compare
     other = None if name in {None, "none"} else load_bicycle(str(name))
     console = _console()
@@ -277,8 +279,9 @@ def period(path: str | Path, plot: str | Path | None = None) -> None:
     InputError
         Names file, line, what was found and what is allowed.
     """
-    from singletrack.library.load import read_text
-    from singletrack.measuring.oscillation import fit_oscillation, read_signal
+    from singletrack.files.signals import read_signal
+    from singletrack.files.source import read_text
+    from singletrack.measuring.oscillation import fit_oscillation
 
     if not Path(path).exists():
         raise InputError(f"{path}: there is no such file")

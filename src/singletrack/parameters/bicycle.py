@@ -98,16 +98,16 @@ class Bicycle(Record):
     def _physical_faults(self) -> Iterator[Fault]:
         for body in ("rear_frame", "front_frame"):
             entries = [getattr(self, f"{body}_inertia_{axes}") for axes in ("xx", "yy", "zz", "xz")]
-            yield from _inertia_faults(f"{body}_inertia", *entries)
+            yield from _inertia_faults(body, ("xx", "yy", "zz", "xz"), *entries)
         for body in ("rear_wheel", "front_wheel"):
             xx, yy = (getattr(self, f"{body}_inertia_{axes}") for axes in ("xx", "yy"))
-            yield from _inertia_faults(f"{body}_inertia", xx, yy, xx, 0.0)
+            yield from _inertia_faults(body, ("xx", "yy"), xx, yy, xx, 0.0)
 
 
 FRAME_GEOMETRY = tuple(name for name, p in Bicycle.descriptions().items() if p.group == _GEOMETRY)
 
 
-def _inertia_faults(name: str, xx: Array, yy: Array, zz: Array, xz: Array) -> Iterator[Fault]:
+def _inertia_faults(body: str, axes: tuple[str, ...], xx: Array, yy: Array, zz: Array, xz: Array) -> Iterator[Fault]:
     """Yield faults of an inertia tensor that is symmetric about the x-z plane: what no distribution of mass has."""
     import numpy as np
 
@@ -120,13 +120,17 @@ def _inertia_faults(name: str, xx: Array, yy: Array, zz: Array, xz: Array) -> It
     mean, half = (xx + zz) / 2, np.hypot((xx - zz) / 2, xz)
     smallest, largest = mean - half, mean + half
     found = {"xx": xx, "yy": yy, "zz": zz, "xz": xz, "small": smallest, "large": largest}
-    tensor = f"{name} (xx {{xx:.6g}}, yy {{yy:.6g}}, zz {{zz:.6g}}, xz {{xz:.6g}}) kg*m**2 is no body's: "
+    parameters = tuple(f"{body}_inertia_{axis}" for axis in axes)
+    found |= dict(zip(parameters, (xx, yy, zz, xz), strict=False))
+    tensor = f"{body}_inertia (xx {{xx:.6g}}, yy {{yy:.6g}}, zz {{zz:.6g}}, xz {{xz:.6g}}) kg*m**2 is no body's: "
     usable = finite & (yy > 0) & (xx > 0) & (zz > 0)
     yield Fault(
         usable & (smallest <= 0),
         tensor + "the moment about a principal axis in the x-z plane is {small:.6g}, must be greater than zero",
         found,
         InputError,
+        parameters,
+        "the inertia of a body",
     )
     positive = usable & (smallest > 0)
     slack = 1 + FLATNESS_TOLERANCE
@@ -136,4 +140,6 @@ def _inertia_faults(name: str, xx: Array, yy: Array, zz: Array, xz: Array) -> It
         f"by more than {FLATNESS_TOLERANCE:.0%} (room for measurement errors of flat bodies)",
         found,
         InputError,
+        parameters,
+        "the inertia of a body",
     )

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 from singletrack.arrays import Array, is_concrete
 from singletrack.arrays.faults import Fault, refuse_single
-from singletrack.errors import InputError, unknown_name
+from singletrack.errors import InputError, unknown
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -131,7 +131,7 @@ class Record:
         known = [f.name for f in dataclasses.fields(cls)]
         for name in names:
             if name not in known and name not in also:
-                raise InputError(unknown_name(f"{cls.kind} parameter", name, cls.descriptions()))
+                raise unknown(f"{cls.kind} parameter", name, cls.descriptions())
 
     def faults(self) -> tuple[Fault, ...]:
         """Return what is wrong with the values, one fault per rule, with a mask over the batch."""
@@ -161,7 +161,7 @@ class Record:
 def _faults_of_value(name: str, value: Array, description: Parameter) -> Iterator[Fault]:
     if value is None:
         if not description.optional:
-            yield Fault(bad=True, text=f"{name} is missing", error=InputError)
+            yield Fault(bad=True, text=f"{name} is missing", error=InputError, parameters=(name,))
         return
     if not is_concrete(value):
         return
@@ -170,7 +170,8 @@ def _faults_of_value(name: str, value: Array, description: Parameter) -> Iterato
     array = np.asarray(value)
     if array.dtype.kind not in "iufc":
         found = repr(value)[:80].replace("{", "{{").replace("}", "}}")
-        yield Fault(bad=True, text=f"{name} = {found} is not a number", error=InputError)
+        text = f"{name} = {found} is not a number"
+        yield Fault(bad=True, text=text, error=InputError, parameters=(name,), allowed="a number")
         return
     unit = f" {description.unit}" if description.unit else ""
     words, test = ALLOWED[description.allowed]
@@ -180,4 +181,4 @@ def _faults_of_value(name: str, value: Array, description: Parameter) -> Iterato
     if description.allowed == "angle":
         found += " ({degrees:.6g} deg)"
     values = {"found": array, "degrees": np.degrees(array.real)}
-    yield Fault(bad, f"{found}, must be {words}", values, InputError)
+    yield Fault(bad, f"{found}, must be {words}", values, InputError, (name,), words)

@@ -14,6 +14,7 @@ from singletrack.errors import PostureError, SingletrackError
 from singletrack.measuring.comparison import compare_measured
 from singletrack.parameters import Bicycle
 from singletrack.parameters.plausibility import oddities
+from singletrack.posture import Options
 from singletrack.present.records import derived, parameter_rows, uncertain_results
 
 if TYPE_CHECKING:
@@ -43,10 +44,10 @@ def print_record(console: Console, record: Bicycle | Rider) -> None:
     console.print()
 
 
-def print_results(console: Console, bicycle: Bicycle, rider: Rider | None, posture: str, shoulder: str | None) -> None:
+def print_results(console: Console, bicycle: Bicycle, rider: Rider | None, options: Options) -> None:
     """Print the matrices, critical speeds and stable ranges, with standard deviations where known."""
-    found = uncertain_results(bicycle, rider, posture if rider is not None else "rigid", shoulder)
-    who = f" with {rider.name or 'rider'}, {posture}" if rider is not None else ""
+    found = uncertain_results(bicycle, rider, options if rider is not None else Options())
+    who = f" with {rider.name or 'rider'}, {options.posture}" if rider is not None else ""
     console.print(Text(f"linear equations{who}", style="bold"))
     for name, matrix in found["matrices"].items():
         for i, row in enumerate(matrix):

@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-import re
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from singletrack import linear
 from singletrack.closed_form import coefficients
 from singletrack.linear.quartic.solve import use_compiled
-from singletrack.parameters import Bicycle, Rider  # fields of a record
+from singletrack.parameters import Bicycle, Rider
+from singletrack.posture import Options
 from singletrack.sweep.layout import CODES, Column, Layout, status_of
 
 if TYPE_CHECKING:
@@ -39,7 +39,7 @@ class Task:
 
     bicycle: Bicycle
     rider: Rider | None
-    options: dict[str, Any]
+    options: Options
     speeds: np.ndarray
     keep: tuple[str, ...]
     names: tuple[str, ...]
@@ -64,8 +64,7 @@ def compute_chunk(task: Task, rows: np.ndarray) -> tuple[dict[str, np.ndarray], 
     arrays = _results(model, task, len(rows))
     faults: dict[str, np.ndarray] = {}
     for fault in model.faults:
-        kind = re.sub(r"\{(\w+)[^}]*\}", r"<\1>", fault.text)
-        faults[kind] = faults.get(kind, np.False_) | np.broadcast_to(np.asarray(fault.bad), (len(rows),))
+        faults[fault.kind] = faults.get(fault.kind, np.False_) | np.broadcast_to(np.asarray(fault.bad), (len(rows),))
     faulty = ~np.broadcast_to(model.valid, (len(rows),))
     for name, values in arrays.items():
         values[faulty] = CODES[name].index("faulty") if name in CODES else np.nan
@@ -79,7 +78,7 @@ def _model(task: Task, rows: np.ndarray) -> LinearModel:
     bicycle = task.bicycle.replace(**changes["bicycle"])
     rider = None if task.rider is None else task.rider.replace(**changes["rider"])
     with np.errstate(all="ignore"):  # faulty designs are flagged
-        return coefficients(bicycle, rider, **task.options)
+        return coefficients(bicycle, rider, task.options)
 
 
 def _results(model: LinearModel, task: Task, count: int) -> dict[str, np.ndarray]:

@@ -1,7 +1,7 @@
 """Writing so that what is said to be on the disk is there, come a kill, a full disk or a power cut.
 
 A file is written under another name, synced, and moved to its place; then its folder is synced. Nobody ever sees half a
-file, and what :func:`write_files` has returned from survives the machine. Every call to the system stands in this module.
+file, and what :func:`write_files` has returned from survives the machine. Every call to the system is in this module.
 """
 
 from __future__ import annotations

@@ -8,15 +8,16 @@ import json
 from importlib.metadata import version
 from typing import TYPE_CHECKING, Any
 
-import singletrack
 from singletrack.parameters import Rider
+from singletrack.version import __version__
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from singletrack.parameters import Bicycle
+    from singletrack.posture import Options
 
-__all__ = ["differences", "fingerprint_of", "programs", "record_values"]
+__all__ = ["differences", "fingerprint_of", "options_values", "programs", "record_values"]
 
 _MOST_NAMED = 8
 _MISSING = object()
@@ -27,7 +28,7 @@ def programs() -> dict[str, str]:
 
     The compiled kernels are not among them: they give the bits of the plain ones.
     """
-    return {"singletrack": singletrack.__version__, "numpy": version("numpy"), "scipy": version("scipy")}
+    return {"singletrack": __version__, "numpy": version("numpy"), "scipy": version("scipy")}
 
 
 def record_values(record: Bicycle | Rider) -> dict[str, Any]:
@@ -36,6 +37,15 @@ def record_values(record: Bicycle | Rider) -> dict[str, Any]:
     if isinstance(record, Rider) and record.shapes:
         values["shapes"] = {name: dataclasses.asdict(shape) for name, shape in record.shapes.items()}
     return {"name": record.name, **values}
+
+
+def options_values(options: Options) -> dict[str, Any]:
+    """Return all of a rider's options as plain values, whatever they are."""
+    values = {entry.name: getattr(options, entry.name) for entry in dataclasses.fields(options)}
+    return {
+        name: {k: float(v) for k, v in value.items()} if isinstance(value, dict) else value
+        for name, value in values.items()
+    }
 
 
 def fingerprint_of(described: dict[str, Any]) -> str:

@@ -14,13 +14,13 @@ import numpy as np
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from singletrack.errors import InputError, unknown_name
+from singletrack.files.source import place_of, read_text
 from singletrack.files.speeds import parse_speeds
 from singletrack.library import load_bicycle, load_rider, shipped
-from singletrack.library.load import _place as place_in_file  # the same words for the same place
-from singletrack.library.load import read_text
 from singletrack.parameters import Bicycle, Rider
+from singletrack.posture import Options
 from singletrack.sweep.designs import Designs, make_designs
-from singletrack.sweep.provenance import fingerprint_of, programs, record_values
+from singletrack.sweep.provenance import fingerprint_of, options_values, programs, record_values
 from singletrack.sweep.vary import parse_variation
 
 __all__ = ["KEEP", "Study", "load_study"]
@@ -63,8 +63,8 @@ class Study:
     name, description : str
     bicycle : Bicycle
     rider : Rider or None
-    options : dict
-        All that a model is made with besides, as :func:`singletrack.coefficients` takes it: posture, shoulder.
+    options : Options
+        How the rider sits.
     designs : Designs
         The parameters that vary.
     speeds : array, shape (n,)
@@ -77,7 +77,7 @@ class Study:
     description: str
     bicycle: Bicycle
     rider: Rider | None
-    options: dict[str, Any]
+    options: Options
     designs: Designs
     speeds: np.ndarray
     keep: tuple[str, ...]
@@ -85,7 +85,7 @@ class Study:
     @property
     def posture(self) -> str:
         """The rider's posture."""
-        return str(self.options["posture"])
+        return self.options.posture
 
     def to_dict(self) -> dict[str, Any]:
         """Return all that decides the results and their places, for provenance: plain values, SI units."""
@@ -93,7 +93,7 @@ class Study:
             "programs": programs(),
             "bicycle": record_values(self.bicycle),
             "rider": None if self.rider is None else record_values(self.rider),
-            "options": dict(self.options),
+            "options": options_values(self.options),
             "designs": self.designs.to_dict(),
             "speeds": self.speeds.tolist(),
             "keep": list(self.keep),
@@ -156,7 +156,7 @@ def _resolved(file: _StudyFile, path: Path, text: str) -> Study:
         description=file.description,
         bicycle=bicycle,
         rider=rider,
-        options={"posture": file.posture, "shoulder": file.shoulder},
+        options=Options(file.posture, file.shoulder),
         designs=designs,
         speeds=_speeds(file.speeds, _place(path, text, ("speeds",))),
         keep=tuple(name for name in KEEP if name in file.keep),
@@ -171,9 +171,9 @@ def _name_or_file(kind: str, found: str, study: Path) -> str | Path:
 def _speeds(found: str | float | list[float], place: str) -> np.ndarray:
     if isinstance(found, str):
         try:
-            return parse_speeds(found)
+            return parse_speeds(found, "speeds =")
         except InputError as error:
-            raise InputError(f"{place}: {str(error).replace('--speeds', 'speeds =')}") from None
+            raise error.at(place) from None
     speeds = np.atleast_1d(np.asarray(found, dtype=float))
     if not len(speeds) or not np.isfinite(speeds).all() or (speeds < 0).any():
         raise InputError(f"{place}: speeds = {found}, must be finite numbers of zero or more, in m/s")
@@ -182,7 +182,7 @@ def _speeds(found: str | float | list[float], place: str) -> np.ndarray:
 
 def _place(path: Path, text: str, location: tuple[int | str, ...]) -> str:
     name = next((str(part) for part in reversed(location) if isinstance(part, str) and f"{part}" in text), "")
-    return place_in_file(str(path), text, name) if name else str(path)
+    return place_of(str(path), text, name) if name else str(path)
 
 
 def _words(problem: Any) -> str:

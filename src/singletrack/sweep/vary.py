@@ -78,7 +78,7 @@ def _number(entry: str, found: object, unit: str, place: str) -> float:
     try:
         value = parse_quantity(found, unit).value
     except InputError as error:
-        raise InputError(f"{place}: {entry} = {error}") from None
+        raise error.of(entry).at(place) from None
     if not np.isfinite(value):
         raise InputError(f"{place}: {entry} = {found!r}, must be a finite number")
     return value

@@ -23,7 +23,7 @@ from singletrack.multibody.engine.connections import CoordinateForce, Wheel
 from singletrack.multibody.engine.elements import GROUND, Body, free, revolute
 from singletrack.multibody.engine.model import Model, build
 from singletrack.multibody.engine.system import System
-from singletrack.posture import seat
+from singletrack.posture import Options, seat
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -112,9 +112,7 @@ def _elements(bicycle: Bicycle, posture: Posture | None, numbers: Numbers) -> di
     }
 
 
-def bicycle_model(
-    bicycle: Bicycle, rider: Rider | None = None, posture: str = "rigid", shoulder: str | None = None
-) -> Model:
+def bicycle_model(bicycle: Bicycle, rider: Rider | None = None, options: Options | str = "rigid") -> Model:
     """Return the full nonlinear model of a bicycle, with a rider in a posture.
 
     Designs of one kind share one derivation: only the first takes time.
@@ -123,8 +121,8 @@ def bicycle_model(
     ----------
     bicycle, rider
         One design; numbers, no arrays.
-    posture, shoulder
-        As for :func:`singletrack.posture.seat`.
+    options
+        How the rider sits, or a posture's name.
 
     Raises
     ------
@@ -140,9 +138,10 @@ def bicycle_model(
     ('lean', 'steer', 'rear wheel')
     """
     _refuse_batches(bicycle, rider)
-    if rider is None and posture != "rigid":
-        raise InputError(f"posture {posture} needs a rider; allowed without one: rigid")
-    seated = None if rider is None else seat(bicycle, rider, posture, shoulder)
+    options = Options.of(options)
+    if rider is None:
+        options.require_rider()
+    seated = None if rider is None else seat(bicycle, rider, options)
     numbers = Numbers()
     elements = _elements(bicycle, seated, numbers)
     system = System(
