@@ -32,7 +32,7 @@ def test_wheels_and_moments_are_zero_or_more(name, value):
 
 @pytest.mark.parametrize("degrees", [-90.0, 90.0, 16.9 * 180 / np.pi])
 def test_the_steer_axis_leans_less_than_90_degrees(degrees):
-    with pytest.raises(InputError, match="steer_axis_tilt = .* must be between -90 and 90 deg"):
+    with pytest.raises(InputError, match=r"steer_axis_tilt = .* must be between -90 and 90 deg"):
         STRATOS.replace(steer_axis_tilt=np.radians(degrees))
 
 
