@@ -165,13 +165,13 @@ def _skate_faults(wheel: str, radius: Array, mass: Array, xx: Array, yy: Array) 
         names,
         "greater than zero",
     )
-    names = (f"{wheel}_mass", f"{wheel}_inertia_xx", f"{wheel}_inertia_yy")
+    parts = (f"{wheel}_mass", f"{wheel}_inertia_xx", f"{wheel}_inertia_yy")
     yield Fault(
         (mass == 0) & ((xx > 0) | (yy > 0)),
-        f"{names[0]} = 0 kg with {names[1]} = {{{names[1]}:.6g}} and {names[2]} = {{{names[2]}:.6g}} kg*m**2, "
+        f"{parts[0]} = 0 kg with {parts[1]} = {{{parts[1]}:.6g}} and {parts[2]} = {{{parts[2]}:.6g}} kg*m**2, "
         "must be greater than zero unless the wheel has no inertia",
-        dict(zip(names, (mass, xx, yy), strict=True)),
+        dict(zip(parts, (mass, xx, yy), strict=True)),
         InputError,
-        names,
+        parts,
         "greater than zero",
     )
