@@ -113,6 +113,7 @@ def test_two_axes_are_indexed():
     assert model[..., None].shape == (2, 4, 1)
     np.testing.assert_array_equal(model[..., 2].K2, model.K2[:, 2])
     np.testing.assert_array_equal(model[..., 2].K2, model.K2[:, 2])
+    np.testing.assert_array_equal(model[..., 2].K2, model.K2[:, 2])
     np.testing.assert_array_equal(model[1, 2].M, model.M[1, 2])
 
 
