@@ -136,7 +136,7 @@ class LinearModel:
         """Return some designs of a batch: an index, slice or mask of the batch's axes."""
         whole = self.broadcast_to(self.shape)
         of_batch = index if isinstance(index, tuple) else (index,)
-        of_matrix = (*of_batch, slice(None), slice(None)) if Ellipsis in of_batch else of_batch
+        of_matrix = (*of_batch, slice(None), slice(None)) if any(i is Ellipsis for i in of_batch) else of_batch
         some: dict[str, Any] = {name: getattr(whole, name)[of_matrix] for name in (*_SQUARE, "B")}
         some["gravity"] = whole.gravity[of_batch]
         return dataclasses.replace(whole, **some, faults=tuple(fault[index] for fault in whole.faults))
