@@ -45,7 +45,7 @@ def read_measured(text: str, where: str, centre_fit: str = "perpendicular") -> M
 
 
 def read_measured_bicycle(text: str, where: str) -> Bicycle:
-    """Return the bicycle that a text of raw measurements describes (errors as :func:`read_measured`)."""
+    """Return the bicycle alone (arguments as for :func:`read_measured`)."""
     return read_measured(text, where).bicycle
 
 

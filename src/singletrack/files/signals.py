@@ -19,6 +19,16 @@ def read_signal(text: str, where: str) -> tuple[np.ndarray, np.ndarray]:
 
     One heading line and lines that start with ``#`` are passed over.
 
+    Parameters
+    ----------
+    text : str
+    where : str
+        The file's name, for messages.
+
+    Returns
+    -------
+    time, signal : array, shape (n,)
+
     Raises
     ------
     InputError

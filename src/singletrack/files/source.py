@@ -18,6 +18,10 @@ _LARGEST_FILE = 1_000_000
 def read_text(path: Path) -> str:
     """Return the text of a user's file.
 
+    Parameters
+    ----------
+    path : path
+
     Raises
     ------
     InputError
@@ -40,6 +44,16 @@ def read_text(path: Path) -> str:
 
 
 def place_of(where: str, text: str, name: str) -> str:
-    """Return the file with the line on which a name is set."""
+    """Return the file with the line on which a name is set.
+
+    Parameters
+    ----------
+    where : str
+        The file's name.
+    text : str
+        What it says.
+    name : str
+        Set as in TOML; the file alone is returned where it is not.
+    """
     found = re.search(rf"^[^#\n]*?(?<![\w-])[\"']?{re.escape(name)}[\"']?\s*[=\].]", text, re.MULTILINE)
     return where if found is None else f"{where}, line {text.count(chr(10), 0, found.start()) + 1}"

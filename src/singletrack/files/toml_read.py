@@ -7,7 +7,7 @@ import tomllib
 from pathlib import Path
 from typing import Any, TypeVar
 
-from singletrack.errors import InputError, SingletrackError, unknown_name
+from singletrack.errors import InputError, SingletrackError, unknown, unknown_name
 from singletrack.files.source import place_of
 from singletrack.parameters.record import Record
 from singletrack.parameters.rider import Rider
@@ -58,7 +58,7 @@ def parse_record(cls: type[R], text: str, where: str) -> R:
     try:
         return cls(**fields, **header, standard_deviations=deviations)
     except SingletrackError as error:
-        raise type(error)(_place_of_fault(str(error), header["name"], where, text)) from None
+        raise error.located(lambda names: _place_of_any(where, text, names)) from None
 
 
 def _checked_header(cls: type[R], document: dict[str, Any], where: str, text: str) -> dict[str, Any]:
@@ -93,7 +93,7 @@ def _quantities(
     for name, found in parameters.items():
         place = place_of(where, text, name)
         if name not in descriptions:
-            raise InputError(f"{place}: {unknown_name(f'{cls.kind} parameter', name, descriptions)}")
+            raise unknown(f"{cls.kind} parameter", name, descriptions, place)
         try:
             if cls is Rider and name == "forward_lean_angle" and isinstance(found, dict):
                 angles = {bicycle: parse_quantity(angle, "rad") for bicycle, angle in found.items()}
@@ -106,7 +106,7 @@ def _quantities(
                 continue
             quantity = parse_quantity(found, descriptions[name].unit)
         except InputError as error:
-            raise InputError(f"{place}: {name} = {error}") from None
+            raise error.of(name).at(place) from None
         fields[name] = quantity.value
         if quantity.deviation is not None:
             deviations[name] = quantity.deviation
@@ -126,18 +126,11 @@ def _tables(cls: type[R], document: dict[str, Any], where: str, text: str) -> di
             else:
                 fields[table] = {name: parse_quantity(value, "").value for name, value in found.items()}
         except InputError as error:
-            raise InputError(f"{place_of(where, text, table)}: {error}") from None
+            raise error.at(place_of(where, text, table)) from None
     return fields
 
 
-def _place_of_fault(message: str, name: str, where: str, text: str) -> str:
-    """Put file and line in the place of the record's name before a fault of a value."""
-    reason = message.removeprefix(f"{name}: ")
-    parameter = re.match(r"\w+", reason)
-    if parameter is None:
-        return f"{where}: {reason}"
-    place = place_of(where, text, parameter[0])
-    if place == where:  # a fault of several values that share the beginning of their names
-        first = re.search(rf"\b{re.escape(parameter[0])}\w*(?=[\"']?\s*[=\].])", text)
-        place = where if first is None else place_of(where, text, first[0])
-    return f"{place}: {reason}"
+def _place_of_any(where: str, text: str, names: tuple[str, ...]) -> str:
+    """Return the file with the line on which the first of the names is set that is set at all."""
+    places = (place_of(where, text, name) for name in names)
+    return next((place for place in places if place != where), where)

@@ -34,7 +34,7 @@ def shipped(kind: str) -> dict[str, Traversable]:
     Examples
     --------
     >>> list(shipped("bicycle"))
-    ['benchmark', 'browser', 'stratos']
+    ['benchmark', 'browser', 'kooijman-2008', 'stratos']
     """
     folder = resources.files("singletrack") / "data" / f"{kind}s"
     files = sorted((file for file in folder.iterdir() if file.name.endswith(".toml")), key=lambda file: file.name)
@@ -47,8 +47,8 @@ def load_bicycle(name_or_path: str | Path) -> Bicycle:
     Parameters
     ----------
     name_or_path : str or path
-        A shipped name (``benchmark``, ``stratos``, ``browser``) or a file: TOML, a parameter text file or raw
-        measurements of BicycleParameters, one of its YAML parameter sets.
+        A shipped name (``benchmark``, ``stratos``, ``browser``, ``kooijman-2008``) or a file: TOML, a parameter text
+        file or raw measurements of BicycleParameters, one of its YAML parameter sets.
 
     Raises
     ------
@@ -131,7 +131,7 @@ def override(record: R, texts: dict[str, str], where: str = "--set") -> R:
         try:
             quantity = parse_quantity(text, descriptions[name].unit)
         except InputError as error:
-            raise InputError(f"{where} {name}: {error}") from None
+            raise error.at(f"{where} {name}") from None
         changes[name] = quantity.value
         deviations.pop(name, None)
         if quantity.deviation is not None:
@@ -139,4 +139,4 @@ def override(record: R, texts: dict[str, str], where: str = "--set") -> R:
     try:
         return dataclasses.replace(record, **changes, standard_deviations=deviations)
     except SingletrackError as error:
-        raise type(error)(f"{where}: {str(error).removeprefix(f'{record.name}: ')}") from None
+        raise error.at(where) from None
