@@ -1,9 +1,16 @@
-"""Simulation in minimal speeds, with the coordinates projected back onto the constraints after every step."""
+"""Simulation in minimal speeds, with the coordinates projected back onto the constraints after every step.
+
+Steps end where an input is not smooth. A run ends by itself where the machine stops being the one described: a wheel
+leaves the ground (its normal force falls to zero) or lies flat, a coordinate leaves its
+:class:`~singletrack.multibody.Limit`, a limb is at the end of its :class:`~singletrack.multibody.Reach`. For a
+bicycle: lean beyond 80 deg, a hand that can follow no further. The attributes of the result say so: ``end``, in words
+such as "fell to the right", and ``end_time``, s; ``singular_times`` are those of the singular positions passed.
+"""
 
 from __future__ import annotations
 
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
@@ -54,27 +61,18 @@ def simulate(
     times
         Times of the results, s, increasing, (k,); the first is the start.
     inputs
-        Inputs over time, by name: numbers, functions of time, :class:`Pulse` or :class:`Sampled`. Steps end where
-        an input is not smooth.
+        Inputs over time, by name: numbers, functions of time, :class:`Pulse` or :class:`Sampled`.
     events
-        What to watch for; the moments are in the result's ``event_time``. Two passages within a step are found.
+        What to watch for; the moments are in the result's ``event_time``.
     ends
-        Let the run end where the machine stops being the one described: a wheel leaves the ground (its normal force
-        falls to zero) or lies flat, a coordinate leaves its :class:`Limit`, a limb is at the end of its
-        :class:`Reach`. For a bicycle: lean beyond 80 deg, a hand that can follow no further. By default it does, if
-        no terminal event says otherwise.
+        Let it end where the machine stops being the one described (see the module's text); by default it does, if no
+        terminal event says otherwise.
     singular
-        What to do in a singular position, where loops can move in more than one way: ``stop``, or ``pass`` it where
-        the branch of the motion continues.
+        In a singular position ``stop``, or ``pass`` it where the branch of the motion continues.
     trouble
-        What to do where the simulation cannot go on: ``raise``, or ``end`` with the results so far; the reason is in
-        the attribute ``end`` then.
-    method
-        Integrator of scipy: DOP853 or RK45, or Radau for stiff machines (with exact Jacobians).
-    rtol, atol
-        Relative and absolute tolerance of a step.
-    max_step
-        Longest step, s.
+        Where the simulation cannot go on ``raise``, or ``end`` with the results so far.
+    method, rtol, atol, max_step
+        Integrator of scipy (DOP853 or RK45; Radau for stiff machines), tolerances of a step, longest step, s.
     most_steps
         How many steps may be taken, which bounds the time of computing.
     progress
@@ -83,14 +81,12 @@ def simulate(
     Returns
     -------
     xarray.Dataset
-        See :mod:`singletrack.multibody.engine.results`. Its attributes say how it ended: ``end``, in words, such as
-        "fell to the right", and ``end_time``, s; ``singular_times`` (s) are those of the singular positions passed.
+        See :mod:`singletrack.multibody.engine.results`; the attribute ``end`` says how it ended.
 
     Raises
     ------
     ModelError
-        For times that do not increase, or where the simulation cannot go on (a singular position, steps that become
-        too short), if that is not to end it; time, place and loops are named.
+        For times that do not increase, or where it cannot go on; time, place and loops are named.
 
     Examples
     --------
@@ -98,50 +94,45 @@ def simulate(
     >>> bob = Body("bob", 1.0, (0, 0, 9.81))
     >>> model = build(System([bob], [revolute("swing", "ground", "bob", (0, 0, 0), (0, 1, 0))]))
     >>> run = simulate(assemble(model, {"swing": 1e-5}), np.linspace(0, np.pi, 5))
-    >>> round(float(run.q.sel(coordinate="swing")[-1] * 1e5), 6)
-    -1.0
-    >>> run.attrs["end"]
-    'all times reached'
+    >>> round(float(run.q.sel(coordinate="swing")[-1] * 1e5), 6), run.attrs["end"]
+    (-1.0, 'all times reached')
     """
-    import scipy.integrate  # slow to import
-
     times = _checked(times, method, singular, trouble)
+    driven = signals(state.model.system, inputs)
     if ends is None:
         ends = not any(event.terminal for event in events)
-    driven = signals(state.model.system, inputs)
     longest = min([max_step, *(signal.max_step for signal in driven)])
-    watch = [*map(watched, events), *(default_ends(state) if ends else ())]
-    run = Run(
-        state,
-        float(times[0]),
-        driven,
-        watch,
-        times,
-        {"rtol": rtol, "atol": atol, "max_step": longest},
-        getattr(scipy.integrate, method),
-        method,
-        singular == "pass",
-        most_steps,
-        progress,
-    )
-    run.snapshots.append(Snapshot(run.time, state))
-    run.next_sample = 1
-    if ends:
-        _end_at_once(run, watch[len(events) :])
-    breaks = {b for signal in driven for b in signal.breaks if times[0] < b < times[-1]}
-    reason = ""
+    options = {"rtol": rtol, "atol": atol, "max_step": longest}
+    stops = default_ends(state) if ends else []
+    watch = [*map(watched, events), *stops]
+    run = Run(state, driven, watch, times, method, options, singular == "pass", most_steps, progress)
+    _end_at_once(run, stops)
+    return _finish(run, _go(run, trouble))
+
+
+def _go(run: Run, trouble: str) -> str:
+    """Run through the intervals in which the inputs are smooth; return what went wrong."""
+    first, last = float(run.times[0]), float(run.times[-1])
+    breaks = {b for signal in run.signals for b in signal.breaks if first < b < last}
     try:
-        for bounds in pairwise([float(times[0]), *sorted(breaks), float(times[-1])]):
+        for bounds in pairwise([first, *sorted(breaks), last]):
             while run.time < bounds[1] and not run.ended:
                 advance(run, bounds[1], bounds)
     except HaltError as halt:
         if trouble == "raise":
             raise ModelError(str(halt)) from None
-        reason = str(halt)
         if run.snapshots[-1].time < run.time:
             run.snapshots.append(Snapshot(run.time, run.state))
-    found = gather(run.snapshots, driven, run.happened)
-    found.attrs |= _said(run, reason)
+        return str(halt)
+    return ""
+
+
+def _finish(run: Run, reason: str) -> xr.Dataset:
+    found = gather(run.snapshots, run.signals, run.happened)
+    found.attrs["end"] = reason or run.ended or "all times reached"
+    found.attrs["end_time"] = run.time
+    if run.passed:
+        found.attrs["singular_times"] = [loss.time for loss in run.passed]
     return found
 
 
@@ -169,10 +160,3 @@ def _end_at_once(run: Run, ends: Sequence[Watched]) -> None:
             run.ended = event.saying(run.state)
             run.happened.append((run.ended, run.time))
             return
-
-
-def _said(run: Run, reason: str) -> dict[str, Any]:
-    said: dict[str, Any] = {"end": reason or run.ended or "all times reached", "end_time": run.time}
-    if run.passed:
-        said["singular_times"] = [loss.time for loss in run.passed]
-    return said

@@ -38,26 +38,27 @@ class Run:
     """A simulation under way."""
 
     state: State
-    time: float
     signals: Sequence[Signal]
     events: Sequence[Watched]
     times: Array
-    options: dict[str, Any]
-    solver: Any
     method: str
+    options: dict[str, Any]
     passes: bool
     steps_left: int
     progress: Callable[[float], object] | None = None
     first_step: float | None = None
+    time: float = field(init=False)
     usual: Usual = field(init=False)
     snapshots: list[Snapshot] = field(default_factory=list)
     happened: list[tuple[str, float]] = field(default_factory=list)
     passed: list[RankLoss] = field(default_factory=list)
-    next_sample: int = 0
+    next_sample: int = 1
     ended: str = ""
     firm: tuple[float, State] = field(init=False)
 
     def __post_init__(self) -> None:
+        self.time = float(self.times[0])
+        self.snapshots.append(Snapshot(self.time, self.state))
         self.usual = Usual.of(self.state)
         self.firm = self.time, self.state
 
@@ -149,6 +150,8 @@ def _carry_on(solver: Any, evaluator: Evaluator, after: State) -> None:
 
 
 def _solver(run: Run, evaluator: Evaluator, stop: float) -> Any:
+    import scipy.integrate  # slow to import
+
     y = np.concatenate([run.state.q, run.state.u[evaluator.free]])
     options = dict(run.options)
     if run.first_step is not None:
@@ -156,7 +159,7 @@ def _solver(run: Run, evaluator: Evaluator, stop: float) -> Any:
     if run.method in IMPLICIT:
         options["jac"] = slope_jacobian(evaluator)
     try:
-        return run.solver(evaluator.slope, run.time, y, stop, **options)
+        return getattr(scipy.integrate, run.method)(evaluator.slope, run.time, y, stop, **options)
     except (ValueError, ArithmeticError, np.linalg.LinAlgError, RuntimeError):
         raise HaltError(_stuck(run)) from None
 
