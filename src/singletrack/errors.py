@@ -7,16 +7,136 @@ and exits with code 2.
 from __future__ import annotations
 
 import difflib
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Callable, Iterable, Sequence
 
-__all__ = ["InputError", "ModelError", "PostureError", "SingletrackError", "nearest", "unknown_name"]
+__all__ = [
+    "InputError",
+    "ModelError",
+    "OddityWarning",
+    "PostureError",
+    "SingletrackError",
+    "nearest",
+    "unknown",
+    "unknown_name",
+]
 
 
 class SingletrackError(ValueError):
-    """Any error caused by what was asked for; its text is one complete message."""
+    """Any error caused by what was asked for; its text is one complete message, its attributes say the same in parts.
+
+    Parameters
+    ----------
+    reason : str
+        What is wrong: the message without the place.
+    parameters : iterable of str
+        The parameters concerned.
+    found : object
+        What was found: a value, or values by parameter where there are several.
+    allowed : object
+        What is allowed instead: words, or the names that exist.
+    place : str
+        Where: a file with its line, an option, the name of a record. Whoever knows it fills it in, by :meth:`at`.
+    parts : iterable of SingletrackError
+        The errors one by one where several were found at once (see :meth:`of_all`).
+
+    Attributes
+    ----------
+    reason, parameters, found, allowed, place, parts
+        As above; ``parameters`` and ``parts`` as tuples.
+
+    Examples
+    --------
+    >>> error = InputError("trail = nan m, must be a finite number", parameters=["trail"], allowed="a finite number")
+    >>> str(error.at("bicycle.toml, line 7")), error.parameters
+    ('bicycle.toml, line 7: trail = nan m, must be a finite number', ('trail',))
+    """
+
+    def __init__(
+        self,
+        reason: str = "",
+        *,
+        parameters: Iterable[str] = (),
+        found: Any = None,
+        allowed: Any = "",
+        place: str = "",
+        parts: Iterable[SingletrackError] = (),
+    ) -> None:
+        super().__init__(reason)
+        self.reason = reason
+        self.parameters = tuple(parameters)
+        self.found = found
+        self.allowed = allowed
+        self.place = place
+        self._parts = tuple(parts)
+
+    @classmethod
+    def of_all(cls, errors: Sequence[SingletrackError]) -> SingletrackError:
+        """Return several errors as one, of the first one's class and with what it found and what it allows."""
+        if len(errors) == 1:
+            return errors[0]
+        first, errors = errors[0], [part for error in errors for part in error.parts]
+        names = dict.fromkeys(name for error in errors for name in error.parameters)
+        return type(first)(
+            "; ".join(error.reason for error in errors),
+            parameters=names,
+            found=first.found,
+            allowed=first.allowed,
+            place=first.place,
+            parts=errors,
+        )
+
+    @property
+    def parts(self) -> tuple[SingletrackError, ...]:
+        """The errors one by one where several were found at once, else the error itself alone."""
+        return self._parts or (self,)
+
+    def __str__(self) -> str:
+        told, before = [], ""
+        for part in self.parts:
+            told.append(f"{part.place}: {part.reason}" if part.place != before and part.place else part.reason)
+            before = part.place
+        return "; ".join(told)
+
+    def of(self, parameter: str) -> SingletrackError:
+        """Return an error about a value as one about the parameter that was to have it.
+
+        >>> str(InputError("'wide' is not a number").of("trail").at("bicycle.toml, line 7"))
+        "bicycle.toml, line 7: trail = 'wide' is not a number"
+        """
+        return type(self)(
+            f"{parameter} = {self.reason}",
+            parameters=(parameter,),
+            found=self.found,
+            allowed=self.allowed,
+            place=self.place,
+        )
+
+    def at(self, place: str) -> SingletrackError:
+        """Return the same error with its place known, instead of any it had."""
+        return self.located(lambda _: place)
+
+    def located(self, place_of: Callable[[tuple[str, ...]], str]) -> SingletrackError:
+        """Return the same error with its places known: of each part by ``place_of``, which is given its parameters.
+
+        >>> both = InputError.of_all([InputError("a is 1", parameters="a"), InputError("b is 2", parameters="b")])
+        >>> lines = {"a": 3, "b": 4}
+        >>> str(both.located(lambda names: f"f.toml, line {lines[names[0]]}"))
+        'f.toml, line 3: a is 1; f.toml, line 4: b is 2'
+        """
+        placed = [
+            type(part)(
+                part.reason,
+                parameters=part.parameters,
+                found=part.found,
+                allowed=part.allowed,
+                place=place_of(part.parameters),
+            )
+            for part in self.parts
+        ]
+        return self.of_all(placed)
 
 
 class InputError(SingletrackError):
@@ -29,6 +149,10 @@ class PostureError(SingletrackError):
 
 class ModelError(SingletrackError):
     """A multibody system that is not well defined; names the element."""
+
+
+class OddityWarning(UserWarning):
+    """Something allowed that looks odd: a value that is seldom meant, an option without effect."""
 
 
 _MOST_LISTED = 12
@@ -56,3 +180,23 @@ def unknown_name(what: str, name: str, known: Iterable[str]) -> str:
     known = list(known)
     listing = f"known: {', '.join(known)}" if len(known) <= _MOST_LISTED else f"{len(known)} names are known"
     return f"unknown {what} {name[:80]!r}{nearest(name, known)} ({listing})"
+
+
+def unknown(what: str, name: str, known: Iterable[str], place: str = "") -> InputError:
+    """Return the error for a name that is not known; its message is that of :func:`unknown_name`.
+
+    Parameters
+    ----------
+    what : str
+        What the name should be.
+    name : str
+    known : iterable of str
+    place : str
+        Where it stands.
+
+    >>> error = unknown("posture", "uprite", ["rigid", "upright"])
+    >>> error.parameters, error.allowed
+    (('uprite',), ('rigid', 'upright'))
+    """
+    known = tuple(known)
+    return InputError(unknown_name(what, name, known), parameters=(name,), found=name, allowed=known, place=place)

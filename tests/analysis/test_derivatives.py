@@ -5,6 +5,7 @@ import pytest
 
 from singletrack import InputError, coefficients, linear, load_bicycle, load_rider
 from singletrack.analysis.derivatives import derivatives
+from singletrack.posture import Options
 
 CASES = [
     ("benchmark", None, "rigid", None),
@@ -30,7 +31,7 @@ def changed(bike, person, name, value):
 def test_every_parameter_against_differences(which):
     bike, person, posture, shoulder = case(*which)
     values = {**bike.values(), **({} if person is None else person.values())}
-    slopes = derivatives(bike, person, posture, shoulder, list(values))
+    slopes = derivatives(bike, person, Options(posture, shoulder), list(values))
     for i, (name, value) in enumerate(values.items()):
         step = 1e-6 * max(abs(value), 0.01)
         ends = [coefficients(*changed(bike, person, name, value + h), posture, shoulder) for h in (step, -step)]
@@ -44,7 +45,7 @@ def test_every_parameter_against_differences(which):
 def test_eigenvalues_and_critical_speeds_against_differences(which):
     bike, person, posture, shoulder = case(*which)
     names = ["trail", "steer_axis_tilt", "front_frame_mass", "gravity", "rear_wheel_inertia_yy"]
-    slopes = derivatives(bike, person, posture, shoulder, names)
+    slopes = derivatives(bike, person, Options(posture, shoulder), names)
     speeds = np.array([0.7, 3.3, 7.1])
     roots = linear.eigenvalues(slopes.model, speeds)
     found = slopes.eigenvalues(speeds[:, None], roots)

@@ -5,9 +5,9 @@ import pytest
 
 from singletrack import InputError, coefficients, load_bicycle, load_rider
 from singletrack.analysis.uncertainty import eigenvalue_uncertainty, linear_uncertainty, sample_designs
-from singletrack.library.load import read_text
+from singletrack.files.measured import read_measured
+from singletrack.files.source import read_text
 from singletrack.linear import modes
-from singletrack.measuring.pendulums import measure
 
 # About what a tape measure and a scale give.
 DEVIATIONS = {
@@ -26,7 +26,7 @@ def measured_like(name="stratos", **changes):
 
 def test_linear_and_sampled_weave_speed_of_the_measured_stratos_agree(shared_data):
     path = shared_data / "bicycles" / "StratosMeasured.txt"
-    found = measure(read_text(path), str(path))
+    found = read_measured(read_text(path), str(path))
     for covariance in (None, (found.names, found.covariance)):
         linear = linear_uncertainty(found.bicycle, covariance=covariance).critical_speeds()
         sampled = sample_designs(found.bicycle, covariance=covariance, samples=4000).critical_speeds()

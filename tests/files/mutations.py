@@ -15,11 +15,14 @@ from pathlib import Path
 from singletrack import load_bicycle, load_rider
 from singletrack.errors import InputError
 from singletrack.files.parameter_sets import write_parameter_set
+from singletrack.files.signals import read_signal
+from singletrack.files.source import read_text
 from singletrack.files.text import write_bicycle_text
+from singletrack.files.toml_read import parse_record
 from singletrack.files.toml_write import write_toml
 from singletrack.files.yeadon import MEASUREMENTS, read_configuration
-from singletrack.library.load import load_any, parse_record, read_text
-from singletrack.measuring.oscillation import fit_oscillation, read_signal
+from singletrack.library.load import load_any
+from singletrack.measuring.oscillation import fit_oscillation
 from singletrack.parameters.record import Record
 
 BAD_NUMBERS = (

@@ -8,9 +8,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from singletrack import InputError, load_bicycle, load_rider
+from singletrack.files.toml_read import parse_record
 from singletrack.files.toml_write import quantity_text, write_toml
 from singletrack.library import shipped
-from singletrack.library.load import parse_record
 from singletrack.library.schema import schema
 from singletrack.library.template import KINDS, template
 from singletrack.parameters import Bicycle, Rider

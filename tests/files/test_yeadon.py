@@ -9,9 +9,9 @@ import pytest
 
 from singletrack import InputError, coefficients, load_bicycle, load_rider, multibody
 from singletrack.body import rider_segments, skeleton
+from singletrack.files.toml_read import parse_record
 from singletrack.files.toml_write import write_toml
 from singletrack.files.yeadon import MEASUREMENTS, read_configuration, read_yeadon
-from singletrack.library.load import parse_record
 from singletrack.mechanics import combine
 from singletrack.parameters.rider import MASS_FRACTIONS, Rider
 

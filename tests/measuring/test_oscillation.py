@@ -6,7 +6,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from singletrack import InputError
-from singletrack.measuring.oscillation import fit_oscillation, read_signal
+from singletrack.files.signals import read_signal
+from singletrack.measuring.oscillation import fit_oscillation
 
 
 def oscillation(t, period, decay, phase=0.3, offset=0.0, amplitude=1.0):

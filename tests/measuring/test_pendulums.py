@@ -9,9 +9,10 @@ import numpy as np
 import pytest
 
 from singletrack import InputError, load_bicycle
+from singletrack.files.measured import read_measured
 from singletrack.library.template import template
 from singletrack.measuring.comparison import compare_measured
-from singletrack.measuring.pendulums import CENTRE_FITS, measure
+from singletrack.measuring.pendulums import CENTRE_FITS
 from singletrack.measuring.raw import RAW
 
 MUTATIONS = runpy.run_path(str(Path(__file__).parents[1] / "files" / "mutations.py"), run_name="mutations")
@@ -54,23 +55,23 @@ def swung(bicycle, alphas=((3.0, 140.0, 230.0), (347.0, 28.0, 287.0))):
 @pytest.mark.parametrize("name", ["stratos", "browser", "benchmark"])
 def test_ideal_pendulums_give_the_bicycle_back(name, fit):
     bicycle = load_bicycle(name)
-    found = measure(swung(bicycle), "ideal.txt", fit).bicycle
+    found = read_measured(swung(bicycle), "ideal.txt", fit).bicycle
     assert found.values() == pytest.approx({n: v for n, v in bicycle.values().items() if n in found.values()}, rel=1e-9)
 
 
 def test_more_than_three_orientations_are_used():
     bicycle = load_bicycle("stratos")
     text = swung(bicycle, ((3.0, 140.0, 230.0, 70.0, 300.0), (347.0, 28.0, 287.0, 120.0)))
-    found = measure(text, "ideal.txt")
+    found = read_measured(text, "ideal.txt")
     assert (len(found.lines["rear_frame"]), len(found.lines["front_frame"])) == (5, 4)
     assert found.bicycle.rear_frame_inertia_xz == pytest.approx(bicycle.rear_frame_inertia_xz, rel=1e-9)
-    fewer = measure(swung(bicycle), "ideal.txt").bicycle.standard_deviations
+    fewer = read_measured(swung(bicycle), "ideal.txt").bicycle.standard_deviations
     assert found.bicycle.standard_deviations["rear_frame_inertia_xz"] < fewer["rear_frame_inertia_xz"]
 
 
 def test_plumb_lines_go_through_the_centre_of_mass():
     bicycle = load_bicycle("browser")
-    found = measure(swung(bicycle), "ideal.txt")
+    found = read_measured(swung(bicycle), "ideal.txt")
     for end, lines in found.lines.items():
         point = np.array([getattr(bicycle, f"{end}_x"), getattr(bicycle, f"{end}_z")])
         np.testing.assert_allclose(lines[:, :2] @ point, lines[:, 2], atol=1e-12)
@@ -79,7 +80,7 @@ def test_plumb_lines_go_through_the_centre_of_mass():
 @pytest.mark.parametrize("fit", CENTRE_FITS)
 def test_standard_deviations_are_those_of_a_sample(fit):
     text = MUTATIONS["raw_measurements"]()
-    found = measure(text, "raw.txt", fit)
+    found = read_measured(text, "raw.txt", fit)
     rng = np.random.default_rng(5)
 
     def shaken(line):
@@ -87,7 +88,7 @@ def test_standard_deviations_are_those_of_a_sample(fit):
         return f"{name} = {float(value) + 0.01 * float(deviation) * rng.standard_normal()!r}"
 
     lines = text.splitlines()[1:]
-    draws = [measure("\n".join(map(shaken, lines)), "raw.txt", fit).bicycle.values() for _ in range(400)]
+    draws = [read_measured("\n".join(map(shaken, lines)), "raw.txt", fit).bicycle.values() for _ in range(400)]
     names = [name for name, deviation in found.bicycle.standard_deviations.items() if deviation > 0]
     sample = np.array([[draw[name] for name in names] for draw in draws])
     expected = np.array([found.bicycle.standard_deviations[name] for name in names])
@@ -100,7 +101,7 @@ def test_standard_deviations_are_those_of_a_sample(fit):
 def test_the_peers_results_from_the_same_measurements(shared_data):
     # BrowserBenchmark.txt was computed from BrowserMeasured.txt by the peer: 12 digits, and its deviations.
     text = (shared_data / "bicycles" / "BrowserMeasured.txt").read_text()
-    found = measure(text, "BrowserMeasured.txt", "intersections").bicycle
+    found = read_measured(text, "BrowserMeasured.txt", "intersections").bicycle
     peer = load_bicycle(shared_data / "bicycles" / "BrowserBenchmark.txt")
     assert {name: found.values()[name] for name in peer.values()} == pytest.approx(peer.values(), rel=1e-11)
     for name, deviation in peer.standard_deviations.items():
@@ -112,7 +113,7 @@ def test_measured_bicycles_agree_with_table_2(shared_data, name):
     text = (shared_data / "bicycles" / f"{name}Measured.txt").read_text()
     rows = {
         row.name: row
-        for row in compare_measured(measure(text, f"{name}Measured.txt").bicycle, load_bicycle(name.lower()))
+        for row in compare_measured(read_measured(text, f"{name}Measured.txt").bicycle, load_bicycle(name.lower()))
     }
     assert len(rows) == 26
     # The one exception: Table 2 prints each wheel's moment about a diameter under the other wheel.
@@ -129,7 +130,7 @@ def test_measured_bicycles_agree_with_table_2(shared_data, name):
 def test_table_2_fitted_vertical_distances(shared_data, name):
     # All eight printed coordinates of centres of mass, to their last digit.
     text = (shared_data / "bicycles" / f"{name}Measured.txt").read_text()
-    found, printed = measure(text, f"{name}Measured.txt", "vertical").bicycle, load_bicycle(name.lower())
+    found, printed = read_measured(text, f"{name}Measured.txt", "vertical").bicycle, load_bicycle(name.lower())
     for parameter in ("rear_frame_x", "rear_frame_z", "front_frame_x", "front_frame_z"):
         assert round(getattr(found, parameter), 4) == getattr(printed, parameter)
 
@@ -137,7 +138,7 @@ def test_table_2_fitted_vertical_distances(shared_data, name):
 def test_the_browsers_frame_tensor_in_table_2_comes_from_another_first_period(shared_data):
     # 2.0943 s instead of 2.0996 s in the first orientation explains all three printed entries to 3e-5 kg m^2.
     text = (shared_data / "bicycles" / "BrowserMeasured.txt").read_text()
-    changed = measure(text.replace("TtB1 = 2.09957410356", "TtB1 = 2.0943231"), "BrowserMeasured.txt").bicycle
+    changed = read_measured(text.replace("TtB1 = 2.09957410356", "TtB1 = 2.0943231"), "BrowserMeasured.txt").bicycle
     printed = load_bicycle("browser")
     for axes in ("xx", "zz", "xz"):
         name = f"rear_frame_inertia_{axes}"
@@ -171,14 +172,14 @@ def test_refusals_name_file_line_measurement(old, new, says):
     text = MUTATIONS["raw_measurements"]()
     assert old in text
     with pytest.raises(InputError) as refusal:
-        measure(text.replace(old, new, 1), "raw.txt")
+        read_measured(text.replace(old, new, 1), "raw.txt")
     assert str(refusal.value).startswith("raw.txt")
     assert says in str(refusal.value)
 
 
 def test_unknown_fits_are_refused():
     with pytest.raises(InputError, match="did you mean vertical"):
-        measure(MUTATIONS["raw_measurements"](), "raw.txt", "verticals")
+        read_measured(MUTATIONS["raw_measurements"](), "raw.txt", "verticals")
 
 
 def test_the_template_of_measurements_asks_for_all_that_is_needed():

@@ -8,7 +8,7 @@ import pytest
 
 from physics.exact_geometry import ExactBicycle, ExactRider, vec
 from singletrack import coefficients, load_bicycle, load_rider
-from singletrack.posture import seat, slaved_bodies
+from singletrack.posture import Options, seat, slaved_bodies
 
 STEP = mp.mpf(10) ** -8  # error of the differences: its square times a number of order one
 SEATED = [("stratos", p) for p in ("rigid", "leaned", "upright")] + [("browser", p) for p in ("leaned", "upright")]
@@ -49,7 +49,7 @@ def test_k0_with_a_rider_is_the_hessian_of_the_height(name, posture):
 def test_motion_of_the_segments_to_second_order(name, posture, shoulder):
     """J, H and w against differences of exactly closed loops."""
     bicycle = load_bicycle(name)
-    seated = seat(bicycle, load_rider("rider-a"), posture, shoulder)
+    seated = seat(bicycle, load_rider("rider-a"), Options(posture, shoulder))
     bodies, exact = slaved_bodies(seated, bicycle), ExactRider(bicycle, seated)
     ahead, behind = exact.placed(STEP), exact.placed(-STEP)
     for i, (segment, body) in enumerate(seated.segments.items()):

@@ -7,7 +7,7 @@ import pytest
 
 from singletrack import InputError, PostureError, coefficients, load_bicycle, load_rider
 from singletrack.body import skeleton
-from singletrack.posture import seat, slaved_bodies, steered_skeleton
+from singletrack.posture import Options, seat, slaved_bodies, steered_skeleton
 from singletrack.posture.motion import joint_motion
 
 RIDER = load_rider("rider-a")
@@ -75,7 +75,7 @@ def test_shoulder_axes_differ():
     bicycle = load_bicycle("stratos")
     assert seat(bicycle, RIDER, "leaned").shoulder == "abduction"
     assert seat(bicycle, RIDER, "upright").shoulder == "axial"
-    other = seat(bicycle, RIDER, "upright", "abduction")
+    other = seat(bicycle, RIDER, Options("upright", "abduction"))
     assert [joint.name for joint in other.joints][:3] == [
         "right shoulder flexion",
         "right shoulder abduction",
@@ -88,7 +88,7 @@ def test_unknown_names():
     with pytest.raises(InputError, match="unknown posture 'uprigth'; did you mean upright"):
         coefficients(bicycle, RIDER, "uprigth")
     with pytest.raises(InputError, match="unknown shoulder"):
-        seat(bicycle, RIDER, "leaned", "axal")
+        seat(bicycle, RIDER, Options("leaned", "axal"))
     with pytest.raises(InputError, match="needs a rider"):
         coefficients(bicycle, posture="leaned")
 

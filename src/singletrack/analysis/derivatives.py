@@ -17,6 +17,7 @@ if TYPE_CHECKING:
 
     from singletrack.arrays import Array
     from singletrack.parameters import Bicycle, Rider
+    from singletrack.posture import Options
 
 __all__ = ["Derivatives", "derivatives", "shifted"]
 
@@ -118,16 +119,17 @@ def shifted(
 def derivatives(
     bicycle: Bicycle,
     rider: Rider | None = None,
-    posture: str = "rigid",
-    shoulder: str | None = None,
+    options: Options | str = "rigid",
     names: Sequence[str] = (),
 ) -> Derivatives:
     """Return the coefficient matrices and their derivatives with respect to parameters.
 
     Parameters
     ----------
-    bicycle, rider, posture, shoulder
-        As for :func:`singletrack.coefficients`; single designs.
+    bicycle, rider
+        Single designs.
+    options : Options or str
+        How the rider sits, or a posture's name.
     names : sequence of str
         Parameters of the bicycle or of the rider.
 
@@ -152,8 +154,8 @@ def derivatives(
     for name in names:
         if name not in known:
             raise InputError(f"{name} is no parameter of this bicycle or rider (known: {', '.join(known)})")
-    model = coefficients(bicycle, rider, posture, shoulder)
-    moved = coefficients(*shifted(bicycle, rider, names, 1j * _STEP * np.eye(len(names))), posture, shoulder)
+    model = coefficients(bicycle, rider, options)
+    moved = coefficients(*shifted(bicycle, rider, names, 1j * _STEP * np.eye(len(names))), options)
     shape = (len(names), 2, 2)
     matrices = {n: np.broadcast_to(np.imag(getattr(moved, n)) / _STEP, shape) for n in _MATRICES}
     gravity = np.array([float(name == "gravity") for name in names])

@@ -27,6 +27,7 @@ if TYPE_CHECKING:
 
     from singletrack.arrays import Array
     from singletrack.parameters import Bicycle, Rider
+    from singletrack.posture import Options
 
 __all__ = ["Sample", "sample_designs"]
 
@@ -80,8 +81,7 @@ class Sample:
 def sample_designs(
     bicycle: Bicycle,
     rider: Rider | None = None,
-    posture: str = "rigid",
-    shoulder: str | None = None,
+    options: Options | str = "rigid",
     covariance: tuple[Sequence[str], Array] | None = None,
     samples: int = 2000,
     seed: int = 0,
@@ -90,7 +90,7 @@ def sample_designs(
 
     Parameters
     ----------
-    bicycle, rider, posture, shoulder, covariance
+    bicycle, rider, options, covariance
         As for :func:`linear_uncertainty`.
     samples : int
         How many, from 10 to 100000.
@@ -115,7 +115,7 @@ def sample_designs(
     rider = seated(bicycle, rider)
     names, matrix = parameter_covariance(bicycle, rider, covariance)
     drawn = np.random.default_rng(seed).standard_normal((samples, len(names))) @ covariance_root(matrix).T
-    moved = coefficients(*shifted(bicycle, rider, names, drawn), posture, shoulder)
+    moved = coefficients(*shifted(bicycle, rider, names, drawn), options)
     good = np.broadcast_to(moved.valid, (samples,)) & np.isfinite(np.asarray(moved.M)).all(axis=(-2, -1))
     if good.sum() < max(10, samples // 10):
         raise InputError(
@@ -126,4 +126,4 @@ def sample_designs(
     whole = whole_batch(moved, samples)
     M, C1, K0, K2, gravity = (a[good] for a in (whole.M, whole.C1, whole.K0, whole.K2, whole.gravity))
     kept = LinearModel(M, C1, K0, K2, gravity)
-    return Sample(coefficients(bicycle, rider, posture, shoulder), kept, samples)
+    return Sample(coefficients(bicycle, rider, options), kept, samples)

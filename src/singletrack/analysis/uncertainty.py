@@ -32,6 +32,7 @@ if TYPE_CHECKING:
 
     from singletrack.arrays import Array
     from singletrack.parameters import Bicycle, Rider
+    from singletrack.posture import Options
 
 __all__ = [
     "CriticalSpeedUncertainty",
@@ -134,16 +135,17 @@ _Z95 = 1.959963984540054
 def linear_uncertainty(
     bicycle: Bicycle,
     rider: Rider | None = None,
-    posture: str = "rigid",
-    shoulder: str | None = None,
+    options: Options | str = "rigid",
     covariance: tuple[Sequence[str], Array] | None = None,
 ) -> LinearUncertainty:
     """Propagate the standard deviations of the records to first order.
 
     Parameters
     ----------
-    bicycle, rider, posture, shoulder
-        As for :func:`singletrack.coefficients`; single designs, with standard deviations.
+    bicycle, rider
+        Single designs, with standard deviations.
+    options : Options or str
+        How the rider sits, or a posture's name.
     covariance : (names, array of shape (k, k)), optional
         Covariance of parameters that correlate (:class:`singletrack.measuring.pendulums.Measurement` has it); the
         standard deviations of other parameters stay in force. Without it, parameters are independent.
@@ -164,16 +166,15 @@ def linear_uncertainty(
     rider = seated(bicycle, rider)
     names, matrix = parameter_covariance(bicycle, rider, covariance)
     shifts = np.repeat(covariance_root(matrix).T, 2, axis=0) * np.tile([1.0, -1.0], len(names))[:, None]
-    around = coefficients(*shifted(bicycle, rider, names, shifts), posture, shoulder)
-    slopes = derivatives(bicycle, rider, posture, shoulder, names)
+    around = coefficients(*shifted(bicycle, rider, names, shifts), options)
+    slopes = derivatives(bicycle, rider, options, names)
     return LinearUncertainty(slopes, matrix, whole_batch(around, 2 * len(names)))
 
 
 def eigenvalue_uncertainty(
     bicycle: Bicycle,
     rider: Rider | None = None,
-    posture: str = "rigid",
-    shoulder: str | None = None,
+    options: Options | str = "rigid",
     *,
     speeds: Array,
     covariance: tuple[Sequence[str], Array] | None = None,
@@ -192,11 +193,11 @@ def eigenvalue_uncertainty(
     >>> eigenvalue_uncertainty(bicycle, speeds=[5.0]).linear.tolist()
     [[True, True, True, True]]
     """
-    straight = linear_uncertainty(bicycle, rider, posture, shoulder, covariance).eigenvalues(speeds)
+    straight = linear_uncertainty(bicycle, rider, options, covariance).eigenvalues(speeds)
     rows = ~straight.linear.all(axis=-1)
     if not rows.any():
         return straight
-    drawn = sample_designs(bicycle, rider, posture, shoulder, covariance, samples, seed)
+    drawn = sample_designs(bicycle, rider, options, covariance, samples, seed)
     bent = drawn.eigenvalues(straight.speeds[rows])
     use = ~straight.linear[rows]
 

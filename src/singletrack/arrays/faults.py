@@ -32,21 +32,29 @@ class Fault:
     text : str
         The reason, with ``{name}`` for values.
     values : mapping of str to arrays, each broadcastable to ``bad``
-        What was found.
+        The values that the text names; those under a parameter's name, or ``found``, are what was found.
     error : type
         The exception to raise for a single design.
+    parameters : tuple of str
+        The parameters that are wrong, or wrong together.
+    allowed : str
+        What they must be, in words.
 
     Examples
     --------
     >>> import numpy as np
-    >>> Fault(np.array([False, True]), "mass = {mass:g} kg", {"mass": np.array([1.0, -2.0])}).reason((1,))
-    'mass = -2 kg'
+    >>> found = {"mass": np.array([1.0, -2.0])}
+    >>> fault = Fault(np.array([False, True]), "mass = {mass:g} kg", found, parameters=("mass",))
+    >>> fault.reason((1,)), fault.kind
+    ('mass = -2 kg', 'mass = <mass> kg')
     """
 
     bad: Array
     text: str
     values: Mapping[str, Array] = field(default_factory=dict)
     error: type[SingletrackError] = SingletrackError
+    parameters: tuple[str, ...] = ()
+    allowed: str = ""
 
     def __getitem__(self, index: Any) -> Fault:
         """Return the fault of some designs of the batch."""
@@ -70,13 +78,40 @@ class Fault:
         full = {name: np.pad(np.asarray(value), (before, after)) for name, value in self.values.items()}
         return replace(self, bad=np.pad(np.asarray(self.bad), (before, after)), values=full)
 
+    @property
+    def kind(self) -> str:
+        """The reason with names in place of the values: the same for all designs that have this fault."""
+        return self.text.format_map({name: _Name(f"<{name}>") for name in self.values})
+
     def reason(self, index: tuple[int, ...] = ()) -> str:
         """Return the reason with the values of the design at ``index``."""
+        return self.text.format(**self._values_at(index))
+
+    def at(self, index: tuple[int, ...] = ()) -> SingletrackError:
+        """Return the error that the design at ``index`` is, with its parameters, what was found and what is allowed."""
+        values = self._values_at(index)
+        found = {name: values[name] for name in self.parameters if name in values}
+        return self.error(
+            self.text.format(**values),
+            parameters=self.parameters,
+            found=values.get("found", next(iter(found.values())) if len(found) == 1 else found or None),
+            allowed=self.allowed,
+        )
+
+    def _values_at(self, index: tuple[int, ...]) -> dict[str, Any]:
         import numpy as np  # lazy: records can be made without NumPy
 
         shape = np.shape(self.bad)
-        found = {name: np.broadcast_to(np.asarray(value), shape)[index] for name, value in self.values.items()}
-        return self.text.format(**found)
+        return {name: np.broadcast_to(np.asarray(value), shape)[index] for name, value in self.values.items()}
+
+
+class _Name(str):
+    """A name that stands for a number, whatever the number's format."""
+
+    __slots__ = ()
+
+    def __format__(self, spec: str) -> str:
+        return str(self)
 
 
 def refuse_single(faults: Iterable[Fault], where: str = "") -> tuple[Fault, ...]:
@@ -87,7 +122,7 @@ def refuse_single(faults: Iterable[Fault], where: str = "") -> tuple[Fault, ...]
     faults : iterable of Fault
         Faults with masks that can be looked at; those being traced are passed over.
     where : str
-        Put before the message, such as the file or the name of the bicycle.
+        The error's place, such as the name of the bicycle, unless someone knows better later.
 
     Raises
     ------
@@ -99,8 +134,7 @@ def refuse_single(faults: Iterable[Fault], where: str = "") -> tuple[Fault, ...]
     hit = [fault for fault in faults if is_concrete(fault.bad) and np.any(np.asarray(fault.bad))]
     single = [fault for fault in hit if np.ndim(fault.bad) == 0]
     if single:
-        prefix = f"{where}: " if where else ""
-        raise single[0].error(prefix + "; ".join(fault.reason() for fault in single))
+        raise SingletrackError.of_all([fault.at() for fault in single]).at(where)
     return tuple(hit)
 
 

@@ -97,7 +97,8 @@ def skeleton(bicycle: Bicycle, rider: Rider) -> Skeleton:
     missing = bicycle.missing_geometry()
     if missing:
         raise InputError(
-            f"{bicycle.name or 'bicycle'}: cannot seat a rider without frame geometry; missing: {', '.join(missing)}"
+            f"{bicycle.name or 'bicycle'}: cannot seat a rider without frame geometry; missing: {', '.join(missing)}",
+            parameters=missing,
         )
     rider = rider.on(bicycle)
     frame = frame_points(bicycle)
@@ -183,19 +184,19 @@ def _two_link_joint(
     aside = bend * _other_leg(xp, first, along)
     joint = start + vector((along * dx + aside * dz) / distance, 0.0, (along * dz - aside * dx) / distance)
     distance, first, second = (xp.real(length) for length in (distance, first, second))
-    ends, lengths = _LIMBS[limb]
+    ends, names = _LIMBS[limb]
     found = {"distance": distance, "reach": first + second, "least": xp.abs(first - second)}
-    text = f"the {ends} distance is {{distance:.4f}} m, but the {limb} ({lengths}) "
+    text = f"the {ends} distance is {{distance:.4f}} m, but the {limb} ({' + '.join(names)}) "
     too_far, too_near = distance > first + second, distance < xp.abs(first - second)
     return joint, [
-        Fault(too_far, text + "reaches only {reach:.4f} m", found, PostureError),
-        Fault(too_near, text + "cannot fold below {least:.4f} m", found, PostureError),
+        Fault(too_far, text + "reaches only {reach:.4f} m", found, PostureError, names, "within reach"),
+        Fault(too_near, text + "cannot fold below {least:.4f} m", found, PostureError, names, "within reach"),
     ]
 
 
 _LIMBS = {
-    "arm": ("shoulder-grip", "upper_arm_length + lower_arm_length"),
-    "leg": ("hip-bracket", "upper_leg_length + lower_leg_length"),
+    "arm": ("shoulder-grip", ("upper_arm_length", "lower_arm_length")),
+    "leg": ("hip-bracket", ("upper_leg_length", "lower_leg_length")),
 }
 
 
@@ -206,15 +207,20 @@ def _frame_faults(frame: dict[int, Array], bicycle: Bicycle) -> list[Fault]:
     return [
         Fault(
             xp.isnan(frame[5][..., 0]),
-            "chain_stay_length = {length:.4f} m does not span the height {drop:.4f} m between rear hub and bottom "
-            "bracket, must be more",
-            {"length": bicycle.chain_stay_length, "drop": abs(drop)},
+            "chain_stay_length = {chain_stay_length:.4f} m does not span the height {drop:.4f} m "
+            "between rear hub and bottom bracket, must be more",
+            {"chain_stay_length": bicycle.chain_stay_length, "drop": abs(drop)},
             InputError,
+            ("chain_stay_length",),
+            "more than the height between rear hub and bottom bracket",
         ),
         Fault(
             xp.isnan(frame[11][..., 0]),
-            "fork_length = {length:.4f} m is less than the offset of the front hub from the steer axis, must be more",
-            {"length": bicycle.fork_length},
+            "fork_length = {fork_length:.4f} m is less than the offset of the front hub from the steer "
+            "axis, must be more",
+            {"fork_length": bicycle.fork_length},
             InputError,
+            ("fork_length",),
+            "more than the offset of the front hub from the steer axis",
         ),
     ]

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+import dataclasses
 from typing import TYPE_CHECKING
 
-from singletrack.arrays import require_double
+from singletrack.arrays import is_concrete, refuse_single, require_double
 from singletrack.closed_form.slaved import slaved_matrices
 from singletrack.closed_form.whipple import whipple_matrices
-from singletrack.errors import InputError, unknown_name
 from singletrack.model import LinearModel
-from singletrack.posture import POSTURES, seat, slaved_bodies
+from singletrack.model.definite import indefinite
+from singletrack.posture import Options, seat, slaved_bodies
 
 if TYPE_CHECKING:
     from singletrack.parameters import Bicycle, Rider
@@ -17,9 +18,7 @@ if TYPE_CHECKING:
 __all__ = ["coefficients"]
 
 
-def coefficients(
-    bicycle: Bicycle, rider: Rider | None = None, posture: str = "rigid", shoulder: str | None = None
-) -> LinearModel:
+def coefficients(bicycle: Bicycle, rider: Rider | None = None, options: Options | str = "rigid") -> LinearModel:
     """Return the coefficient matrices of the linearised equations of motion.
 
     ``M q'' + v C1 q' + (g K0 + v^2 K2) q = f`` with q = (lean, steer) in rad, f = (lean torque, steer torque) in N m.
@@ -29,10 +28,8 @@ def coefficients(
     bicycle : Bicycle
     rider : Rider, optional
         Without one, the bicycle as measured.
-    posture : {"rigid", "leaned", "upright"}
-        ``rigid``: hands free; ``leaned``: stretched arms, twisting torso; ``upright``: flexed arms, still torso.
-    shoulder : {"abduction", "axial"}, optional
-        Second axis of the shoulder joint; by default abduction for ``leaned``, axial for ``upright``.
+    options : Options or str
+        How the rider sits, or a posture's name.
 
     Returns
     -------
@@ -42,7 +39,8 @@ def coefficients(
     Raises
     ------
     InputError
-        For an unknown posture or shoulder, a bicycle without frame geometry, a rider without forward lean angle;
+        For an unknown name, a bicycle without frame geometry, a rider without forward lean angle; for a mass matrix
+        that is not positive definite, such as of a massless front assembly;
         for JAX arrays in single precision.
     PostureError
         If arms or legs do not reach, or the arms cannot follow the steer.
@@ -53,21 +51,26 @@ def coefficients(
 
     Examples
     --------
-    >>> from singletrack import coefficients, load_bicycle, load_rider
-    >>> model = coefficients(load_bicycle("browser"), load_rider("rider-a"), posture="upright")
+    >>> from singletrack import load_bicycle, load_rider
+    >>> model = coefficients(load_bicycle("browser"), load_rider("rider-a"), "upright")
     >>> round(float(model.M[1, 1]), 4), round(float(model.gravity * model.K0[1, 1]), 4)
     (0.4614, 2.3268)
     """
-    if posture not in POSTURES:
-        raise InputError(unknown_name("posture", posture, POSTURES))
+    options = Options.of(options)
     bare = whipple_matrices(bicycle)
     require_double(bare.M)
     if rider is None:
-        if posture != "rigid":
-            raise InputError(f"posture {posture} needs a rider; allowed without one: rigid")
-        return LinearModel(*bare, bicycle.gravity, faults=bicycle.standing_faults)
-    bodies = slaved_bodies(seat(bicycle, rider, posture, shoulder), bicycle)
+        options.require_rider()
+        return _checked(LinearModel(*bare, bicycle.gravity, faults=bicycle.standing_faults), bicycle.name)
+    bodies = slaved_bodies(seat(bicycle, rider, options), bicycle)
     added = slaved_matrices(bodies, bicycle)
     faults = bicycle.standing_faults + rider.standing_faults + bodies.faults
     M, C1, K0, K2 = (one + other for one, other in zip(bare, added, strict=True))
-    return LinearModel(M, C1, K0, K2, bicycle.gravity, faults=faults)
+    return _checked(LinearModel(M, C1, K0, K2, bicycle.gravity, faults=faults), bicycle.name)
+
+
+def _checked(model: LinearModel, name: str) -> LinearModel:
+    """Return a model with the fault of a mass matrix that is not positive definite; raise it for a single design."""
+    if not is_concrete(model.M):
+        return model
+    return dataclasses.replace(model, faults=model.faults + refuse_single([indefinite(model.M)], where=name))

@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, TypeVar
 
 from singletrack.errors import InputError, SingletrackError, unknown_name
-from singletrack.files.symbols import MODEL_SYMBOLS, NAMES, SYMBOLS
+from singletrack.mechanics.rigid import PlanarBody
 from singletrack.parameters.bicycle import Bicycle
-from singletrack.parameters.lump import PlanarBody
+from singletrack.parameters.symbols import MODEL_SYMBOLS, NAMES, SYMBOLS
 from singletrack.parameters.units import Quantity
 
 if TYPE_CHECKING:
@@ -85,21 +84,22 @@ class Entries:
         Parameters
         ----------
         make : callable
-            Makes a record; may raise SingletrackError that starts with the record's name and the parameter's.
+            Makes a record; may raise SingletrackError, which names its parameters.
         symbols : mapping of str to str
             The file's name of each parameter of the record.
         """
         try:
             return make()
         except SingletrackError as error:
-            reason = str(error).removeprefix(f"{self.name}: ")
-            found = re.match(r"\w+", reason)
-            parameter = found[0] if found else ""
-            symbol = symbols.get(parameter) or next(
-                (symbols[name] for name in symbols if parameter and name.startswith(parameter)), ""
-            )
-            label = f"{symbol}: " if symbol in self.lines and symbol != parameter else ""
-            raise type(error)(f"{self.place(symbol)}: {label}{reason}") from None
+            raise error.located(lambda names: self._place_of(names, symbols)) from None
+
+    def _place_of(self, names: tuple[str, ...], symbols: Mapping[str, str]) -> str:
+        """Return file, line and the file's own name of the first of the parameters that the file gives."""
+        given = [(name, symbols[name]) for name in names if symbols.get(name) in self.lines]
+        if not given:
+            return self.where
+        name, symbol = given[0]
+        return self.place(symbol) if symbol == name else f"{self.place(symbol)}: {symbol}"
 
 
 #: Values that follow from the 25 parameters; some files state them all the same.

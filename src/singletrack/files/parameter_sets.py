@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 from singletrack.errors import InputError, unknown_name
 from singletrack.files.entries import bicycle_from_entries
 from singletrack.files.principal import bicycle_from_principal, principal_values
-from singletrack.files.symbols import MODEL_SYMBOLS, SYMBOLS
 from singletrack.files.yaml_text import Item, numbers, read_mapping
+from singletrack.parameters.symbols import MODEL_SYMBOLS, SYMBOLS
 
 if TYPE_CHECKING:
     from singletrack.files.entries import Entries

@@ -10,9 +10,10 @@ import math
 from typing import TYPE_CHECKING, Any
 
 from singletrack.errors import InputError
-from singletrack.files.symbols import NAMES
+from singletrack.mechanics.rigid import PlanarBody, combine, principal_in_plane
 from singletrack.parameters.bicycle import Bicycle
-from singletrack.parameters.lump import PlanarBody, combine_planar
+from singletrack.parameters.bodies import bicycle_bodies, frame_parameters
+from singletrack.parameters.symbols import NAMES
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -52,7 +53,6 @@ def bicycle_from_principal(entries: Entries, source: str) -> Bicycle:
     for name, deviation in entries.deviations().items():
         raise InputError(f"{entries.place(name)}: {name} has a standard deviation ({deviation:g}), must have none here")
     entries.require_equal(_dependent(values))
-    # A rear frame of masses and radii near the largest double overflows; the record then refuses what is not finite.
     own = {name: values[name] for name in (*_OWN, *_DEPENDENT, "v") if name in values}
     symbols = {NAMES[symbol]: symbol for symbol in _SAME}
     for end, letter in (("rear", "D"), ("front", "H")):
@@ -76,12 +76,13 @@ def _dependent(p: Mapping[str, float]) -> dict[str, float]:
 
 def _benchmark(p: Mapping[str, float]) -> dict[str, Any]:
     """Return our parameters from those of a principal set."""
-    rear = combine_planar([_body(p, "D"), _body(p, "P")])
-    front = _body(p, "H")
+    import numpy as np
+
+    # Masses and radii near the largest double overflow; the record then refuses what is not finite.
+    with np.errstate(all="ignore"):
+        rear = PlanarBody.of(combine([_body(p, "D").body(), _body(p, "P").body()]))
     found: dict[str, Any] = {NAMES[symbol]: p[symbol] for symbol in _SAME}
-    for end, body in (("rear", rear), ("front", front)):
-        found |= {f"{end}_frame_mass": body.mass, f"{end}_frame_x": body.x, f"{end}_frame_z": body.z}
-        found |= {f"{end}_frame_inertia_{axes}": getattr(body, axes) for axes in ("xx", "yy", "zz", "xz")}
+    found |= frame_parameters("rear", rear) | frame_parameters("front", _body(p, "H"))
     for end, letter in (("rear", "R"), ("front", "F")):
         for axes, radius in (("xx", "aa"), ("yy", "yy")):
             found[f"{end}_wheel_inertia_{axes}"] = p[f"m{letter}"] * p[f"k{letter}{radius}"] * p[f"k{letter}{radius}"]
@@ -118,28 +119,23 @@ def principal_values(bicycle: Bicycle) -> dict[str, float]:
         derived = _benchmark(read)
         if all(getattr(bicycle, name) == value for name, value in derived.items()):
             return read
-    values = {**same, **_principal(bicycle, "rear", "D"), **_principal(bicycle, "front", "H")}
-    for end, letter in (("rear", "R"), ("front", "F")):
-        for axes, radius in (("xx", "aa"), ("yy", "yy")):
-            moment = float(getattr(bicycle, f"{end}_wheel_inertia_{axes}"))
-            values[f"k{letter}{radius}"] = math.sqrt(moment / float(getattr(bicycle, f"{end}_wheel_mass")))
+    bodies = bicycle_bodies(bicycle)
+    values = {**same, **_principal(bodies["rear frame"], "D"), **_principal(bodies["front frame"], "H")}
+    for letter, wheel in (("R", bodies["rear wheel"]), ("F", bodies["front wheel"])):
+        values |= {f"k{letter}{axes}": math.sqrt(i / wheel.mass) for axes, i in (("aa", wheel.xx), ("yy", wheel.yy))}
     rider = dict.fromkeys(("mP", "alphaP", "kPaa", "kPbb", "kPyy", "lP", "wP"), 0.0)
     values |= {**rider, "xP": values["xD"], "zP": values["zD"]}
     return {**values, **_dependent(values)}
 
 
-def _principal(bicycle: Bicycle, end: str, letter: str) -> dict[str, float]:
-    mass, x, z, xx, yy, zz, xz = (
-        float(getattr(bicycle, f"{end}_frame_{part}"))
-        for part in ("mass", "x", "z", "inertia_xx", "inertia_yy", "inertia_zz", "inertia_xz")
-    )
-    mean, half = (xx + zz) / 2, math.hypot((xx - zz) / 2, xz)
+def _principal(body: PlanarBody, letter: str) -> dict[str, float]:
+    larger, smaller, angle = principal_in_plane(body.xx, body.zz, body.xz)
     return {
-        f"m{letter}": mass,
-        f"x{letter}": x,
-        f"z{letter}": z,
-        f"alpha{letter}": math.atan2(-2 * xz, xx - zz) / 2,
-        f"k{letter}aa": math.sqrt((mean + half) / mass),
-        f"k{letter}bb": math.sqrt((mean - half) / mass),
-        f"k{letter}yy": math.sqrt(yy / mass),
+        f"m{letter}": float(body.mass),
+        f"x{letter}": float(body.x),
+        f"z{letter}": float(body.z),
+        f"alpha{letter}": float(angle),
+        f"k{letter}aa": math.sqrt(larger / body.mass),
+        f"k{letter}bb": math.sqrt(smaller / body.mass),
+        f"k{letter}yy": math.sqrt(body.yy / body.mass),
     }

@@ -4,10 +4,14 @@ from __future__ import annotations
 
 import re
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeVar, cast
+from typing import TYPE_CHECKING, TypeVar, cast
 
 from singletrack.errors import InputError
-from singletrack.library.load import parse_record
+from singletrack.files.measured import read_measured_bicycle
+from singletrack.files.parameter_sets import read_parameter_set
+from singletrack.files.text import read_bicycle_text
+from singletrack.files.toml_read import parse_record
+from singletrack.files.yeadon import read_yeadon
 from singletrack.parameters.bicycle import Bicycle
 from singletrack.parameters.record import Record
 
@@ -27,6 +31,13 @@ FORMATS = {
     "yeadon": "Yeadon's 95 measurements",
     "configuration": "a configuration of Yeadon's human",
 }
+
+_BICYCLE_READERS: dict[str, Callable[[str, str], Record]] = {
+    "text": read_bicycle_text,
+    "measured": read_measured_bicycle,
+    "yaml": read_parameter_set,
+}
+_RIDER_READERS: dict[str, Callable[[str, str], Record]] = {"yeadon": read_yeadon}
 
 
 def format_of(text: str, where: str) -> str:
@@ -84,22 +95,8 @@ def read_record(cls: type[R], text: str, where: str) -> R:
         return parse_record(cls, text, where)
     if not text.strip():
         raise InputError(f"{where}: is empty; `singletrack template {cls.kind}` prints a file to fill in")
-    readers = _bicycle_readers() if cls is Bicycle else _rider_readers()
+    readers = _BICYCLE_READERS if cls is Bicycle else _RIDER_READERS
     if found not in readers:
         allowed = ", ".join(FORMATS[name] for name in ("toml", *readers))
         raise InputError(f"{where}: looks like {FORMATS[found]}, must be a {cls.kind}: {allowed}")
     return cast("R", readers[found](text, where))
-
-
-def _bicycle_readers() -> dict[str, Callable[[str, str], Any]]:
-    from singletrack.files.parameter_sets import read_parameter_set
-    from singletrack.files.text import read_bicycle_text
-    from singletrack.measuring.pendulums import bicycle_from_measurements
-
-    return {"text": read_bicycle_text, "measured": bicycle_from_measurements, "yaml": read_parameter_set}
-
-
-def _rider_readers() -> dict[str, Callable[[str, str], Any]]:
-    from singletrack.files.yeadon import read_yeadon
-
-    return {"yeadon": read_yeadon}

@@ -16,8 +16,14 @@ _ALLOWED = "must be START:STOP:COUNT in m/s with 0 <= START < STOP and 2 <= COUN
 _MOST = 1_000_000
 
 
-def parse_speeds(text: str) -> np.ndarray:
+def parse_speeds(text: str, name: str = "--speeds") -> np.ndarray:
     """Return the speeds (n,) in m/s that START:STOP:COUNT or a single value stands for.
+
+    Parameters
+    ----------
+    text : str
+    name : str
+        What the text was given for, for the message.
 
     Raises
     ------
@@ -32,7 +38,7 @@ def parse_speeds(text: str) -> np.ndarray:
     import numpy as np  # lazy: `import singletrack` stays light
 
     parts = text.split(":")
-    wrong = InputError(f"--speeds {text!r}: {_ALLOWED}")
+    wrong = InputError(f"{name} {text!r}: {_ALLOWED}", parameters=("speeds",), found=text, allowed=_ALLOWED)
     try:
         numbers = [float(part) for part in parts[:2]]
         count = int(parts[2]) if len(parts) == 3 else 1

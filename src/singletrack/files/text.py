@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING
 from singletrack.errors import InputError
 from singletrack.files.entries import Entries, bicycle_from_entries, rigid_rider_from_entries
 from singletrack.files.numbers import format_number, parse_number
-from singletrack.files.symbols import SYMBOLS
+from singletrack.parameters.symbols import SYMBOLS
 
 if TYPE_CHECKING:
+    from singletrack.mechanics.rigid import PlanarBody
     from singletrack.parameters.bicycle import Bicycle
-    from singletrack.parameters.lump import PlanarBody
     from singletrack.parameters.units import Quantity
 
 __all__ = ["read_bicycle_text", "read_entries", "read_rigid_rider", "write_bicycle_text"]

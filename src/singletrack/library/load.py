@@ -1,31 +1,27 @@
-"""Reading bicycles and riders from TOML files, shipped or the user's own."""
+"""Bicycles and riders by name or path: shipped ones, and files in any format."""
 
 from __future__ import annotations
 
 import dataclasses
-import re
-import tomllib
 from importlib import resources
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from singletrack.errors import InputError, SingletrackError, unknown_name
+from singletrack.files.reading import is_rider, read_record
+from singletrack.files.source import read_text
+from singletrack.files.toml_read import parse_record
 from singletrack.parameters.bicycle import Bicycle
 from singletrack.parameters.record import Record
 from singletrack.parameters.rider import Rider
-from singletrack.parameters.shapes import segment_shape
 from singletrack.parameters.units import parse_quantity
 
 if TYPE_CHECKING:
     from importlib.resources.abc import Traversable
 
-__all__ = ["load_any", "load_bicycle", "load_rider", "override", "parse_record", "read_text", "shipped"]
+__all__ = ["load_any", "load_bicycle", "load_rider", "override", "shipped"]
 
 R = TypeVar("R", bound=Record)
-
-_LARGEST_FILE = 1_000_000
-_HEADER = ("kind", "name", "description", "source", "parameters")
-_TABLES = {"bicycle": ("extras",), "rider": ("segments",)}
 
 
 def shipped(kind: str) -> dict[str, Traversable]:
@@ -38,7 +34,7 @@ def shipped(kind: str) -> dict[str, Traversable]:
     Examples
     --------
     >>> list(shipped("bicycle"))
-    ['benchmark', 'browser', 'stratos']
+    ['benchmark', 'browser', 'kooijman-2008', 'stratos']
     """
     folder = resources.files("singletrack") / "data" / f"{kind}s"
     files = sorted((file for file in folder.iterdir() if file.name.endswith(".toml")), key=lambda file: file.name)
@@ -51,8 +47,8 @@ def load_bicycle(name_or_path: str | Path) -> Bicycle:
     Parameters
     ----------
     name_or_path : str or path
-        A shipped name (``benchmark``, ``stratos``, ``browser``) or a file: TOML, a parameter text file or raw
-        measurements of BicycleParameters, one of its YAML parameter sets.
+        A shipped name (``benchmark``, ``stratos``, ``browser``, ``kooijman-2008``) or a file: TOML, a parameter text
+        file or raw measurements of BicycleParameters, one of its YAML parameter sets.
 
     Raises
     ------
@@ -94,8 +90,6 @@ def load_any(name_or_path: str | Path) -> Bicycle | Rider:
     if not _is_there(path):
         known = [*shipped("bicycle"), *shipped("rider")]
         raise InputError(f"{unknown_name('name', str(name_or_path)[:200], known)}, and there is no such file")
-    from singletrack.files.reading import is_rider  # lazy: seldom needed
-
     return load_rider(path) if is_rider(read_text(path), str(path)) else load_bicycle(path)
 
 
@@ -113,160 +107,7 @@ def _load(cls: type[R], name_or_path: str | Path) -> R:
     path = Path(name_or_path)
     if not _is_there(path):
         raise InputError(f"{unknown_name(cls.kind, str(name_or_path)[:200], known)}, and there is no such file")
-    from singletrack.files.reading import read_record  # lazy: seldom needed
-
     return read_record(cls, read_text(path), str(path))
-
-
-def read_text(path: Path) -> str:
-    """Return the text of a user's file.
-
-    Raises
-    ------
-    InputError
-        If it is a directory, cannot be read, is too large or is not UTF-8 text.
-    """
-    if path.is_dir():
-        raise InputError(f"{path}: is a directory; a file is needed")
-    try:
-        with path.open("rb") as file:
-            content = file.read(_LARGEST_FILE + 1)
-    except OSError as error:
-        raise InputError(f"{path}: cannot be read ({error.strerror})") from None
-    if len(content) > _LARGEST_FILE:
-        raise InputError(f"{path}: is larger than {_LARGEST_FILE // 1000} kB; a parameter file is a page of text")
-    try:
-        return content.decode("utf-8-sig")
-    except UnicodeDecodeError as error:
-        line = content[: error.start].count(b"\n") + 1
-        raise InputError(f"{path}, line {line}: is not UTF-8 text (byte {content[error.start]:#04x})") from None
-
-
-def parse_record(cls: type[R], text: str, where: str) -> R:
-    """Return the record that a TOML text describes.
-
-    Parameters
-    ----------
-    cls : type
-        :class:`Bicycle` or :class:`Rider`.
-    text : str
-        The file's text.
-    where : str
-        Name of the file, for messages.
-
-    Raises
-    ------
-    InputError
-        Names the file, the line, the parameter, what was found and what is allowed.
-    """
-    try:
-        document = tomllib.loads(text)
-    except tomllib.TOMLDecodeError as error:
-        raise InputError(f"{where}: is not valid TOML: {error}") from None
-    except RecursionError:
-        raise InputError(f"{where}: is not valid TOML: nested too deeply") from None
-    except ValueError:  # Python's limit on the digits of whole numbers
-        longest = max(re.finditer(r"\d+", text), key=lambda found: len(found[0]))
-        line = text.count("\n", 0, longest.start()) + 1
-        raise InputError(f"{where}, line {line}: found a number of {len(longest[0])} digits, must be shorter") from None
-    header = _checked_header(cls, document, where, text)
-    fields, deviations = _quantities(cls, header.pop("parameters"), where, text)
-    fields |= _tables(cls, document, where, text)
-    missing = [name for name, p in cls.descriptions().items() if not p.optional and name not in fields]
-    if missing:
-        raise InputError(f"{where}: [parameters] lacks {', '.join(missing)}")
-    try:
-        return cls(**fields, **header, standard_deviations=deviations)
-    except SingletrackError as error:
-        raise type(error)(_place_of_fault(str(error), header["name"], where, text)) from None
-
-
-def _checked_header(cls: type[R], document: dict[str, Any], where: str, text: str) -> dict[str, Any]:
-    if not document:
-        raise InputError(f"{where}: is empty; `singletrack template {cls.kind}` prints a file to fill in")
-    allowed = (*_HEADER, *_TABLES.get(cls.kind, ()))
-    for name in document:
-        if name not in allowed:
-            place = "; parameters go under [parameters]" if name in cls.descriptions() else ""
-            raise InputError(f"{_place(where, text, name)}: {unknown_name('entry', name, allowed)}{place}")
-    if document.get("kind", cls.kind) != cls.kind:
-        raise InputError(f"{_place(where, text, 'kind')}: is a {document['kind']!r} file, must be a {cls.kind}")
-    if not isinstance(document.get("parameters"), dict):
-        raise InputError(f"{where}: has no [parameters]; `singletrack template {cls.kind}` prints a file to fill in")
-    for name in ("name", "description", "source"):
-        if not isinstance(document.get(name, ""), str):
-            raise InputError(f"{_place(where, text, name)}: {name} = {document[name]!r}, must be text")
-    return {
-        "name": document.get("name", Path(where).stem),
-        "source": document.get("source", ""),
-        "description": document.get("description", ""),
-        "parameters": document["parameters"],
-    }
-
-
-def _quantities(
-    cls: type[R], parameters: dict[str, Any], where: str, text: str
-) -> tuple[dict[str, Any], dict[str, float]]:
-    fields: dict[str, Any] = {}
-    deviations: dict[str, float] = {}
-    descriptions = cls.descriptions()
-    for name, found in parameters.items():
-        place = _place(where, text, name)
-        if name not in descriptions:
-            raise InputError(f"{place}: {unknown_name(f'{cls.kind} parameter', name, descriptions)}")
-        try:
-            if cls is Rider and name == "forward_lean_angle" and isinstance(found, dict):
-                angles = {bicycle: parse_quantity(angle, "rad") for bicycle, angle in found.items()}
-                fields["forward_lean_angles"] = {bicycle: angle.value for bicycle, angle in angles.items()}
-                deviations |= {
-                    f"forward_lean_angle on {bicycle}": angle.deviation
-                    for bicycle, angle in angles.items()
-                    if angle.deviation is not None
-                }
-                continue
-            quantity = parse_quantity(found, descriptions[name].unit)
-        except InputError as error:
-            raise InputError(f"{place}: {name} = {error}") from None
-        fields[name] = quantity.value
-        if quantity.deviation is not None:
-            deviations[name] = quantity.deviation
-    return fields, deviations
-
-
-def _tables(cls: type[R], document: dict[str, Any], where: str, text: str) -> dict[str, Any]:
-    """Return what the tables besides [parameters] hold: a rider's segment shapes, numbers kept from other formats."""
-    fields: dict[str, Any] = {}
-    for table in _TABLES.get(cls.kind, ()):
-        found = document.get(table, {})
-        if not isinstance(found, dict):
-            raise InputError(f"{_place(where, text, table)}: {table} must be a table [{table}]")
-        try:
-            if table == "segments":
-                fields["shapes"] = {name: segment_shape(name, values) for name, values in found.items()}
-            else:
-                fields[table] = {name: parse_quantity(value, "").value for name, value in found.items()}
-        except InputError as error:
-            raise InputError(f"{_place(where, text, table)}: {error}") from None
-    return fields
-
-
-def _place(where: str, text: str, name: str) -> str:
-    """Return the file with the line on which a name is set."""
-    found = re.search(rf"^[^#\n]*?(?<![\w-])[\"']?{re.escape(name)}[\"']?\s*[=\].]", text, re.MULTILINE)
-    return where if found is None else f"{where}, line {text.count(chr(10), 0, found.start()) + 1}"
-
-
-def _place_of_fault(message: str, name: str, where: str, text: str) -> str:
-    """Put file and line in the place of the record's name before a fault of a value."""
-    reason = message.removeprefix(f"{name}: ")
-    parameter = re.match(r"\w+", reason)
-    if parameter is None:
-        return f"{where}: {reason}"
-    place = _place(where, text, parameter[0])
-    if place == where:  # a fault of several values that share the beginning of their names
-        first = re.search(rf"\b{re.escape(parameter[0])}\w*(?=[\"']?\s*[=\].])", text)
-        place = where if first is None else _place(where, text, first[0])
-    return f"{place}: {reason}"
 
 
 def override(record: R, texts: dict[str, str], where: str = "--set") -> R:
@@ -290,7 +131,7 @@ def override(record: R, texts: dict[str, str], where: str = "--set") -> R:
         try:
             quantity = parse_quantity(text, descriptions[name].unit)
         except InputError as error:
-            raise InputError(f"{where} {name}: {error}") from None
+            raise error.at(f"{where} {name}") from None
         changes[name] = quantity.value
         deviations.pop(name, None)
         if quantity.deviation is not None:
@@ -298,4 +139,4 @@ def override(record: R, texts: dict[str, str], where: str = "--set") -> R:
     try:
         return dataclasses.replace(record, **changes, standard_deviations=deviations)
     except SingletrackError as error:
-        raise type(error)(f"{where}: {str(error).removeprefix(f'{record.name}: ')}") from None
+        raise error.at(where) from None

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from decimal import Decimal
 from typing import TYPE_CHECKING
 
-from singletrack.files.symbols import MODEL_SYMBOLS, NAMES
+from singletrack.parameters.symbols import MODEL_SYMBOLS, NAMES
 
 if TYPE_CHECKING:
     from singletrack.parameters.bicycle import Bicycle

@@ -10,17 +10,18 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from singletrack.arrays import Array
 from singletrack.errors import InputError, unknown_name
-from singletrack.files.symbols import GEOMETRY_SYMBOLS, MODEL_SYMBOLS, NAMES
-from singletrack.files.text import read_entries
-from singletrack.measuring.raw import check_raw, orientations
+from singletrack.measuring.raw import orientations
 from singletrack.parameters.bicycle import Bicycle
+from singletrack.parameters.symbols import GEOMETRY_SYMBOLS, MODEL_SYMBOLS, NAMES
 
-__all__ = ["CENTRE_FITS", "Measurement", "bicycle_from_measurements", "measure"]
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+__all__ = ["CENTRE_FITS", "Measurement", "measure"]
 
 #: How the centre of mass follows from plumb lines that do not quite cross in one point.
 CENTRE_FITS = {
@@ -53,27 +54,31 @@ class Measurement:
     lines: dict[str, Array]
 
 
-def bicycle_from_measurements(text: str, where: str) -> Bicycle:
-    """Return the bicycle that a file of raw measurements describes (see :func:`measure`)."""
-    return measure(text, where).bicycle
-
-
-def measure(text: str, where: str, centre_fit: str = "perpendicular") -> Measurement:
+def measure(
+    raw: Mapping[str, float],
+    deviations: Mapping[str, float] | None = None,
+    centre_fit: str = "perpendicular",
+    *,
+    name: str = "",
+    source: str = "",
+) -> Measurement:
     """Return a bicycle from raw measurements.
 
     Parameters
     ----------
-    text : str
-        Lines ``name = value+/-deviation`` with the names of :data:`singletrack.measuring.raw.RAW`.
-    where : str
-        The file's name, for messages.
+    raw : mapping of str to float
+        Every measurement by its name, in the units of :data:`singletrack.measuring.raw.RAW`.
+    deviations : mapping of str to float, optional
+        Standard deviations of measurements, in the same units.
     centre_fit : {"perpendicular", "vertical", "intersections"}
         How the centres of mass follow from the plumb lines (:data:`CENTRE_FITS`).
+    name, source : str
+        Of the bicycle.
 
     Raises
     ------
     InputError
-        Names file, line, measurement, what was found and what is allowed.
+        For an unknown fit, or measurements that no bicycle has.
 
     Notes
     -----
@@ -83,16 +88,14 @@ def measure(text: str, where: str, centre_fit: str = "perpendicular") -> Measure
         raise InputError(unknown_name("centre_fit", centre_fit, CENTRE_FITS))
     import numpy as np
 
-    entries = read_entries(text, where)
-    check_raw(entries)
-    raw, deviations = entries.values(), entries.deviations()
+    deviations = deviations or {}
     uncertain = [name for name, deviation in deviations.items() if deviation > 0]
     # One row for the value, one with an imaginary step in each uncertain measurement.
     stepped: dict[str, Any] = {name: np.full(len(uncertain) + 1, value, dtype=complex) for name, value in raw.items()}
-    for row, name in enumerate(uncertain, start=1):
-        stepped[name][row] += 1j * _STEP
+    for row, measurement in enumerate(uncertain, start=1):
+        stepped[measurement][row] += 1j * _STEP
     with np.errstate(all="ignore"):
-        found, lines = _parameters(stepped, {letter: orientations(entries, letter) for letter in "BH"}, centre_fit)
+        found, lines = _parameters(stepped, {letter: orientations(raw, letter) for letter in "BH"}, centre_fit)
     names = tuple(NAMES[symbol] for symbol in (*MODEL_SYMBOLS, *GEOMETRY_SYMBOLS) if symbol in found)
     table = np.stack([np.broadcast_to(found[symbol], len(uncertain) + 1) for symbol in found])
     order = [list(found).index(symbol) for symbol in (*MODEL_SYMBOLS, *GEOMETRY_SYMBOLS) if symbol in found]
@@ -101,31 +104,14 @@ def measure(text: str, where: str, centre_fit: str = "perpendicular") -> Measure
     covariance = scaled @ scaled.T
     spread = np.sqrt(np.diag(covariance))
     fields: dict[str, Any] = dict(zip(names, map(float, values), strict=True))
-    bicycle = entries.build(
-        lambda: Bicycle(
-            name=entries.name,
-            description=f"Measured ({centre_fit} fit of the plumb lines)",
-            source=f"raw measurements {Path(where).name}",
-            standard_deviations={name: float(s) for name, s in zip(names, spread, strict=True) if s > 0},
-            **fields,
-        ),
-        _LOCATES,
+    bicycle = Bicycle(
+        name=name,
+        description=f"Measured ({centre_fit} fit of the plumb lines)",
+        source=source,
+        standard_deviations={parameter: float(s) for parameter, s in zip(names, spread, strict=True) if s > 0},
+        **fields,
     )
     return Measurement(bicycle, names, covariance, {name: line[:, 0].real for name, line in lines.items()})
-
-
-#: The measurement to look at first when a parameter is impossible.
-_LOCATES = {
-    **{NAMES[f"{letter}"]: letter for letter in ("w", "g", "mR", "mF", "mB", "mH")},
-    **{NAMES[s]: name for s, name in {"rR": "dR", "rF": "dF", "c": "f", "lam": "gamma"}.items()},
-    **{NAMES[f"I{b}xx"]: f"Tt{b}1" for b in "RFBH"},
-    **{NAMES[f"I{b}yy"]: f"Tc{b}1" for b in "RFBH"},
-    **{NAMES[f"I{b}{axes}"]: f"Tt{b}{i}" for b in "BH" for axes, i in (("xz", 2), ("zz", 3))},
-    **{NAMES[f"{axis}{b}"]: f"a{b}1" for b in "BH" for axis in "xz"},
-    **{NAMES[s]: s for s in ("hbb", "lcs", "lsp", "lst", "lamst", "lf", "wfh", "wrh")},
-    "stem_length": "LhbR",
-    "handlebar_length": "LhbF",
-}
 
 
 def _parameters(

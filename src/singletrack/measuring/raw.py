@@ -7,12 +7,10 @@ import re
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from singletrack.errors import InputError
-
 if TYPE_CHECKING:
-    from singletrack.files.entries import Entries
+    from collections.abc import Iterable
 
-__all__ = ["RAW", "RawParameter", "check_raw", "orientations"]
+__all__ = ["RAW", "RawParameter", "orientations"]
 
 
 @dataclass(frozen=True)
@@ -85,28 +83,10 @@ RAW = {
 }
 
 
-def orientations(entries: Entries, letter: str) -> list[str]:
-    """Return the numbers of the orientations in which an assembly was hung, in order ("1", "2", ...)."""
-    return sorted(name[-1] for name in entries.quantities if re.fullmatch(rf"alpha{letter}\d", name))
+def orientations(names: Iterable[str], letter: str) -> list[str]:
+    """Return the numbers of the orientations in which an assembly was hung, in order.
 
-
-def check_raw(entries: Entries) -> None:
-    """Raise InputError for measurements that are unknown, missing or not allowed; names file, line, name."""
-    entries.require_known(RAW, "measurement")
-    entries.require([name for name, p in RAW.items() if p.needed], "the measurements")
-    for name, quantity in entries.quantities.items():
-        p = RAW[name]
-        if not p.low < quantity.value < p.high or abs(quantity.value) > 1e6 or (p.low == 0 and quantity.value < 1e-6):
-            high = min(p.high, 1e6)
-            raise InputError(
-                f"{entries.place(name)}: {name} = {quantity.value:g} {p.unit}".rstrip()
-                + f", must be between {max(p.low, -1e6):g} and {high:g} ({p.meaning})"
-            )
-        if quantity.deviation is not None and quantity.deviation > abs(quantity.value) + 1:
-            raise InputError(
-                f"{entries.place(name)}: {name} has a standard deviation of {quantity.deviation:g} {p.unit}, must be "
-                f"less than the value's size ({p.meaning})"
-            )
-    for letter in "BH":
-        numbers = orientations(entries, letter)
-        entries.require([f"{kind}{letter}{i}" for i in numbers for kind in ("a", "Tt")], "the measurements")
+    >>> orientations(["alphaB2", "alphaB1", "aB1"], "B")
+    ['1', '2']
+    """
+    return sorted(name[-1] for name in names if re.fullmatch(rf"alpha{letter}[1-9]", name))

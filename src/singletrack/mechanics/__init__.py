@@ -1,5 +1,5 @@
 """Rigid bodies and uniform solids."""
 
-from singletrack.mechanics.rigid import Body, combine
+from singletrack.mechanics.rigid import Body, PlanarBody, combine
 
-__all__ = ["Body", "combine"]
+__all__ = ["Body", "PlanarBody", "combine"]

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence  # noqa: TC003  # part of the public signature
 from dataclasses import dataclass
+from typing import NamedTuple
 
-from singletrack.arrays import Array, dot, namespace
+from singletrack.arrays import Array, dot, namespace, stack, vector
 
-__all__ = ["Body", "combine"]
+__all__ = ["Body", "PlanarBody", "combine", "point_inertia", "principal_in_plane"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,3 +61,67 @@ def combine(bodies: Sequence[Body]) -> Body:
     mass = sum(xp.asarray(body.mass) for body in bodies)
     centre = sum(xp.asarray(body.mass)[..., None] * body.centre for body in bodies) / mass[..., None]
     return Body(mass, centre, sum(body.inertia_about(centre) for body in bodies))
+
+
+class PlanarBody(NamedTuple):
+    """A rigid body symmetric about the x-z plane, by its entries, each of shape (...), SI, in the bicycle's frame.
+
+    Attributes
+    ----------
+    mass : array, shape (...)
+        In kg.
+    x, z : array, shape (...)
+        Centre of mass, forward and down, in m.
+    xx, yy, zz, xz : array, shape (...)
+        Entries of the inertia tensor about the centre of mass in kg m^2.
+    """
+
+    mass: Array
+    x: Array
+    z: Array
+    xx: Array
+    yy: Array
+    zz: Array
+    xz: Array
+
+    def body(self) -> Body:
+        """Return the same body with its centre (..., 3) and its tensor (..., 3, 3).
+
+        >>> PlanarBody(2.0, 0.5, -1.0, 0.1, 0.2, 0.3, 0.05).body().inertia.tolist()
+        [[0.1, 0.0, 0.05], [0.0, 0.2, 0.0], [0.05, 0.0, 0.3]]
+        """
+        rows = [vector(self.xx, 0.0, self.xz), vector(0.0, self.yy, 0.0), vector(self.xz, 0.0, self.zz)]
+        return Body(self.mass, vector(self.x, 0.0, self.z), stack(rows, -2))
+
+    @classmethod
+    def of(cls, body: Body) -> PlanarBody:
+        """Return a body by its entries; products of inertia that symmetry makes zero are left out."""
+        centre, tensor = body.centre, body.inertia
+        moments = (tensor[..., 0, 0], tensor[..., 1, 1], tensor[..., 2, 2], tensor[..., 0, 2])
+        return cls(body.mass, centre[..., 0], centre[..., 2], *moments)
+
+
+def principal_in_plane(xx: Array, zz: Array, xz: Array) -> tuple[Array, Array, Array]:
+    """Return the principal moments in the x-z plane and the direction of the larger one's axis.
+
+    Parameters
+    ----------
+    xx, zz, xz : array, shape (...)
+        Entries of the inertia tensor in kg m^2.
+
+    Returns
+    -------
+    larger, smaller : array, shape (...)
+        In kg m^2.
+    angle : array, shape (...)
+        Of the larger one's axis from x, about y (right-handed: from x towards -z), in rad.
+
+    Examples
+    --------
+    >>> [float(value) for value in principal_in_plane(1.0, 1.0, -0.25)]
+    [1.25, 0.75, 0.7853981633974483]
+    """
+    import numpy as np
+
+    mean, half = (xx + zz) / 2, np.hypot((xx - zz) / 2, xz)
+    return mean + half, mean - half, np.arctan2(-2 * xz, xx - zz) / 2

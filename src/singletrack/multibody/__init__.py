@@ -34,7 +34,7 @@ from singletrack.multibody.engine.elements import (
 )
 from singletrack.multibody.engine.equilibrium import SteadyMotion, steady_motion
 from singletrack.multibody.engine.inputs import Constant, Function, Pulse, Sampled
-from singletrack.multibody.engine.linearise import Linearisation, SpeedPolynomials, linearise, speed_polynomials
+from singletrack.multibody.engine.linearise import Linearisation, linearise, speed_polynomials
 from singletrack.multibody.engine.model import Model, State, build
 from singletrack.multibody.engine.simulate import Event, simulate
 from singletrack.multibody.engine.system import System
@@ -55,7 +55,6 @@ __all__ = [
     "Response",
     "Sampled",
     "Sensor",
-    "SpeedPolynomials",
     "Spring",
     "State",
     "SteadyMotion",

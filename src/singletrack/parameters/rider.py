@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 __all__ = ["MASS_FRACTIONS", "Rider"]
 
 _BODY, _MASS = "body", "mass"
+_TORSO = ("shoulder_to_shoulder", "upper_arm_circumference", "chest_circumference")
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -90,7 +91,9 @@ class Rider(Record):
             raise InputError(
                 f"{self.name or 'rider'}: forward_lean_angle on bicycle {bicycle.name or '(no name)'!r} is not known "
                 f"(known on: {known}); it must be given, between 0 and 90 deg: as forward_lean_angle in the rider's "
-                'file, or on the command line with --set "forward_lean_angle=70 deg"'
+                'file, or on the command line with --set "forward_lean_angle=70 deg"',
+                parameters=("forward_lean_angle",),
+                allowed="between 0 and 90 deg",
             )
         deviations = dict(self.standard_deviations)
         own = deviations.get(f"forward_lean_angle on {bicycle.name}")
@@ -112,26 +115,30 @@ class Rider(Record):
     def _physical_faults(self) -> Iterator[Fault]:
         import numpy as np
 
-        inputs = (self.shoulder_to_shoulder, self.upper_arm_circumference, self.chest_circumference)
+        inputs = tuple(getattr(self, name) for name in _TORSO)
         if not all(is_concrete(value) and np.asarray(value).dtype.kind in "iufc" for value in inputs):
             return
         width, thickness = np.real(self.torso_width), np.real(self.torso_thickness)
         finite = np.isfinite(width) & np.isfinite(thickness)
         found = {"width": width, "twice": 2 * width}
-        found |= dict(zip(("shoulders", "arm", "chest"), (np.asarray(value) for value in inputs), strict=True))
+        found |= dict(zip(_TORSO, (np.asarray(value) for value in inputs), strict=True))
         yield Fault(
             finite & (width <= 0),
-            "shoulder_to_shoulder = {shoulders:.6g} m leaves no torso between upper arms of "
-            "upper_arm_circumference = {arm:.6g} m, must be more than upper_arm_circumference / pi",
+            "shoulder_to_shoulder = {shoulder_to_shoulder:.6g} m leaves no torso between upper arms of "
+            "upper_arm_circumference = {upper_arm_circumference:.6g} m, must be more than upper_arm_circumference / pi",
             found,
             InputError,
+            _TORSO[:2],
+            "more than upper_arm_circumference / pi",
         )
         yield Fault(
             finite & (width > 0) & (thickness <= 0),
-            "chest_circumference = {chest:.6g} m does not go around a torso {width:.6g} m wide (shoulder_to_shoulder "
-            "- upper_arm_circumference / pi), must be more than {twice:.6g} m",
+            "chest_circumference = {chest_circumference:.6g} m does not go around a torso {width:.6g} m wide "
+            "(shoulder_to_shoulder - upper_arm_circumference / pi), must be more than {twice:.6g} m",
             found,
             InputError,
+            ("chest_circumference", *_TORSO[:2]),
+            "more than twice the width of the torso",
         )
 
 

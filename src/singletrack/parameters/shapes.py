@@ -68,4 +68,5 @@ def segment_shape(name: str, values: object) -> SegmentShape:
     try:
         return SegmentShape(**{field: parse_quantity(values[field], "").value for field in wanted})
     except InputError as error:
-        raise InputError(f"segments.{name}: {error}") from None
+        reason = f"segments.{name}: {error.reason}"
+        raise InputError(reason, parameters=(f"segments.{name}",), found=error.found, allowed=error.allowed) from None

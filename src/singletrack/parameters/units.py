@@ -90,29 +90,32 @@ def parse_quantity(found: object, unit: str) -> Quantity:
     singletrack.errors.InputError: '5 kg' has a unit that is no length; allowed: a number in m, or one with ...
     """
     if isinstance(found, bool) or not isinstance(found, str | int | float):
-        raise InputError(f"{found!r} is not a number; allowed: {_allowed(unit)}")
+        raise _refusal(found, f"{found!r} is not a number", unit)
     if not isinstance(found, str):
         return Quantity(_to_float(found, unit))
     match = _QUANTITY.fullmatch(found.strip()) if len(found) <= _LONGEST else None
     if match is None:
-        raise InputError(f"{found[:60]!r} is not a number with an optional unit; allowed: {_allowed(unit)}")
+        raise _refusal(found, f"{found[:60]!r} is not a number with an optional unit", unit)
     value = float(match["value"])
     deviation = None if match["deviation"] is None else float(match["deviation"])
     if deviation is not None and not 0 <= deviation < float("inf"):
-        raise InputError(f"{found!r} has a standard deviation that is not a finite number of zero or more")
+        reason = f"{found!r} has a standard deviation that is not a finite number of zero or more"
+        raise InputError(reason, found=found, allowed="a standard deviation of zero or more")
     if match["unit"] is None:
         return Quantity(value, deviation)
     factor = _factor(found, match["unit"].strip(), unit)
     return Quantity(_scaled(value, factor), None if deviation is None else _scaled(deviation, factor))
 
 
+def _refusal(found: object, reason: str, unit: str) -> InputError:
+    return InputError(f"{reason}; allowed: {_allowed(unit)}", found=found, allowed=_allowed(unit))
+
+
 def _to_float(found: float, unit: str) -> float:
     try:
         return float(found)
     except OverflowError:
-        raise InputError(
-            f"a whole number of {len(str(found))} digits is too large; allowed: {_allowed(unit)}"
-        ) from None
+        raise _refusal(found, f"a whole number of {len(str(found))} digits is too large", unit) from None
 
 
 def _scaled(value: float, factor: float) -> float:
@@ -150,9 +153,9 @@ def pint_factor(found: str, text: str, unit: str) -> float:
     """
     import pint  # lazy: heavy
 
-    unknown = f"{found!r} has an unknown unit {text!r}; allowed: {_allowed(unit)}"
+    unknown = _refusal(found, f"{found!r} has an unknown unit {text!r}", unit)
     if not _UNIT_TEXT.fullmatch(text):
-        raise InputError(unknown)
+        raise unknown
     registry = unit_registry()
     plain = re.sub(r"([A-Za-z])(-?[1-3])", r"\1**\2", text.replace("²", "2").replace("³", "3"))
     plain = plain.replace("·", "*").replace("^", "**")
@@ -160,9 +163,9 @@ def pint_factor(found: str, text: str, unit: str) -> float:
         source = registry.parse_units(plain)
         return float(registry.Quantity(1.0, source).to(unit).magnitude)
     except pint.DimensionalityError:
-        raise InputError(f"{found!r} has a unit that is {_kind(unit)}; allowed: {_allowed(unit)}") from None
+        raise _refusal(found, f"{found!r} has a unit that is {_kind(unit)}", unit) from None
     except (pint.PintError, AttributeError, ValueError):
-        raise InputError(unknown) from None
+        raise unknown from None
 
 
 def _kind(unit: str) -> str:

@@ -1,13 +1,16 @@
 """Which segments of the rider move with the steer, and how."""
 
 from singletrack.posture.motion import SlavedBodies, slaved_bodies, steered_skeleton
-from singletrack.posture.postures import POSTURES, SHOULDERS, Joint, Loop, Posture, seat
+from singletrack.posture.options import ARMS, POSTURES, SHOULDERS, Options
+from singletrack.posture.postures import Joint, Loop, Posture, seat
 
 __all__ = [
+    "ARMS",
     "POSTURES",
     "SHOULDERS",
     "Joint",
     "Loop",
+    "Options",
     "Posture",
     "SlavedBodies",
     "seat",

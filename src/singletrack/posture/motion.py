@@ -200,7 +200,7 @@ def _inverse(matrix: Array, posture: Posture) -> tuple[Array, tuple[Fault, ...]]
         f"posture {posture.name}: the hands cannot follow the grips when steering, because the loops through the arms "
         "are singular (an arm is stretched straight, or its axes line up)"
     )
-    faults = refuse_single([Fault(bad, text, {}, PostureError)])
+    faults = refuse_single([Fault(bad, text, error=PostureError, parameters=("posture",))])
     if is_jax(matrix) or suspect.any():
         inverse = xp.linalg.inv(xp.where(xp.asarray(bad)[..., None, None], xp.nan, matrix))
     return inverse, faults

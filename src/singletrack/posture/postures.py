@@ -20,15 +20,13 @@ from typing import TYPE_CHECKING
 
 from singletrack.arrays import Array, unit_vector, vector
 from singletrack.body import Segment, Skeleton, rider_segments, skeleton
-from singletrack.errors import InputError, unknown_name
+from singletrack.posture.options import Options
 
 if TYPE_CHECKING:
     from singletrack.parameters import Bicycle, Rider
 
-__all__ = ["POSTURES", "SHOULDERS", "Joint", "Loop", "Posture", "seat"]
+__all__ = ["Joint", "Loop", "Posture", "seat"]
 
-POSTURES = ("rigid", "leaned", "upright")
-SHOULDERS = ("abduction", "axial")
 _DEFAULT_SHOULDER = {"leaned": "abduction", "upright": "axial"}
 # Skeleton points of each arm.
 _ARMS = {"right": {"shoulder": 21, "elbow": 23, "grip": 19}, "left": {"shoulder": 22, "elbow": 24, "grip": 20}}
@@ -107,21 +105,20 @@ class Posture:
         return tuple(chain)
 
 
-def seat(bicycle: Bicycle, rider: Rider, posture: str = "rigid", shoulder: str | None = None) -> Posture:
+def seat(bicycle: Bicycle, rider: Rider, options: Options | str = "rigid") -> Posture:
     """Seat a rider on a bicycle in a posture.
 
     Parameters
     ----------
     bicycle : Bicycle
     rider : Rider
-    posture : {"rigid", "leaned", "upright"}
-    shoulder : {"abduction", "axial"}, optional
-        Second axis of the shoulder joint; by default abduction for ``leaned``, axial for ``upright``.
+    options : Options or str
+        How the rider sits, or a posture's name.
 
     Raises
     ------
     InputError
-        For an unknown posture or shoulder, a bicycle without frame geometry, a rider without forward lean angle.
+        For an unknown name, a bicycle without frame geometry, a rider without forward lean angle.
     PostureError
         If arms or legs do not reach.
 
@@ -131,13 +128,11 @@ def seat(bicycle: Bicycle, rider: Rider, posture: str = "rigid", shoulder: str |
     >>> [joint.name for joint in seat(load_bicycle("browser"), load_rider("rider-a"), "upright").joints][:3]
     ['right shoulder flexion', 'right shoulder rotation', 'right elbow']
     """
-    if posture not in POSTURES:
-        raise InputError(unknown_name("posture", posture, POSTURES))
-    if shoulder is not None and shoulder not in SHOULDERS:
-        raise InputError(unknown_name("shoulder", shoulder, SHOULDERS))
+    options = Options.of(options)
+    posture = options.posture
     points = skeleton(bicycle, rider)
     segments = rider_segments(rider, points)
-    chosen = shoulder or _DEFAULT_SHOULDER.get(posture, "")
+    chosen = options.shoulder or _DEFAULT_SHOULDER.get(posture, "")
     if posture == "upright":
         return _upright(points, segments, chosen)
     if posture == "leaned":

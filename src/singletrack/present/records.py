@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from singletrack.parameters.record import Record
+    from singletrack.posture import Options
 
 __all__ = ["Row", "derived", "parameter_rows", "uncertain_results"]
 
@@ -111,7 +112,7 @@ def _derived_rider(r: Rider) -> Iterator[Row]:
         yield Row(group, f"lean on {bicycle}", f"{_number(math.degrees(angle))} deg", "", "torso from the horizontal")
 
 
-def uncertain_results(bicycle: Bicycle, rider: Rider | None, posture: str, shoulder: str | None) -> dict[str, Any]:
+def uncertain_results(bicycle: Bicycle, rider: Rider | None, options: Options) -> dict[str, Any]:
     """Return the matrices, critical speeds and, where parameters have any, their standard deviations.
 
     Returns
@@ -120,7 +121,7 @@ def uncertain_results(bicycle: Bicycle, rider: Rider | None, posture: str, shoul
         ``matrices`` and ``matrix_deviations``: by name; ``weave``, ``capsize``: lists of (speed, deviation or None);
         ``stable_ranges``.
     """
-    model = coefficients(bicycle, rider, posture, shoulder)
+    model = coefficients(bicycle, rider, options)
     critical = critical_speeds(model)
     found: dict[str, Any] = {
         "matrices": {"M": model.M, "C1": model.C1, "g K0": model.gravity * model.K0, "K2": model.K2},
@@ -131,7 +132,7 @@ def uncertain_results(bicycle: Bicycle, rider: Rider | None, posture: str, shoul
     for kind in ("weave", "capsize"):
         found[kind] = [(speed, None) for speed in getattr(critical, kind)]
     if known:
-        spread = linear_uncertainty(bicycle, rider, posture, shoulder)
+        spread = linear_uncertainty(bicycle, rider, options)
         speeds = spread.critical_speeds()
         for kind in ("weave", "capsize"):
             found[kind] = list(zip(getattr(speeds, kind), getattr(speeds, f"{kind}_deviation"), strict=True))

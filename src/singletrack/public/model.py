@@ -8,8 +8,11 @@ from typing import TYPE_CHECKING, Self
 from singletrack import closed_form
 from singletrack.linear import CriticalSpeeds, Modes, StateSpace, critical_speeds, eigenvalues, modes, state_space
 from singletrack.model import LinearModel
+from singletrack.posture import Options
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from singletrack.arrays import Array
     from singletrack.parameters import Bicycle, Rider
 
@@ -61,7 +64,15 @@ class CoefficientMatrices(LinearModel):
 
 
 def coefficients(
-    bicycle: Bicycle, rider: Rider | None = None, posture: str = "rigid", shoulder: str | None = None
+    bicycle: Bicycle,
+    rider: Rider | None = None,
+    posture: str = "rigid",
+    shoulder: str | None = None,
+    *,
+    arms: str | None = None,
+    torso_lean: bool = False,
+    springs: Mapping[str, Array] | None = None,
+    dampers: Mapping[str, Array] | None = None,
 ) -> CoefficientMatrices:
     """Return the linearised equations of motion of a bicycle, alone or with a rider.
 
@@ -77,6 +88,12 @@ def coefficients(
         ``rigid``: hands free; ``leaned``: stretched arms, twisting torso; ``upright``: flexed arms, still torso.
     shoulder : {"abduction", "axial"}, optional
         Second axis of the shoulder joint; by default abduction for ``leaned``, axial for ``upright``.
+    arms : {"straight", "bent"}, optional
+        Of the leaned posture.
+    torso_lean : bool
+        Whether the torso may lean sideways, about a hinge along x at the hips: one more coordinate.
+    springs, dampers : mapping of str to array, optional
+        Stiffness in N m/rad and damping in N m s/rad by joint, or ``steer``.
 
     Returns
     -------
@@ -98,4 +115,5 @@ def coefficients(
     >>> round(float(model.M[1, 1]), 4), round(float(model.gravity * model.K0[1, 1]), 4)
     (0.4614, 2.3268)
     """
-    return CoefficientMatrices.of(closed_form.coefficients(bicycle, rider, posture, shoulder))
+    options = Options(posture, shoulder, arms, torso_lean, springs or {}, dampers or {})
+    return CoefficientMatrices.of(closed_form.coefficients(bicycle, rider, options))

@@ -10,7 +10,7 @@ import numpy as np
 
 from singletrack.library import load_bicycle, load_rider
 from singletrack.parameters import Bicycle, Rider
-from singletrack.posture import POSTURES, seat
+from singletrack.posture import POSTURES, Options, seat
 from singletrack.public import coefficients
 
 if TYPE_CHECKING:
@@ -43,10 +43,15 @@ class Case:
         """Name for people."""
         return f"{self.bicycle.name.title()}, {self.rider.name.replace('rider-a', 'Rider A')}, {self.posture}"
 
+    @property
+    def options(self) -> Options:
+        """How the rider sits."""
+        return Options(self.posture, self.shoulder)
+
     @cached_property
     def seated(self) -> Posture:
         """The rider on the bicycle."""
-        return seat(self.bicycle, self.rider, self.posture, self.shoulder)
+        return seat(self.bicycle, self.rider, self.options)
 
     @cached_property
     def model(self) -> CoefficientMatrices:

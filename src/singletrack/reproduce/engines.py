@@ -42,7 +42,7 @@ def compare_engines(cases: dict[str, Case]) -> list[Agreement]:
 
 
 def _compare(case: Case) -> Agreement:
-    other = multibody.coefficients(case.bicycle, case.rider, case.posture, case.shoulder)
+    other = multibody.coefficients(case.bicycle, case.rider, case.options)
     differences = {}
     for name in _MATRICES:
         one, two = np.asarray(getattr(case.model, name)), np.asarray(getattr(other, name))
@@ -53,6 +53,6 @@ def _compare(case: Case) -> Agreement:
 def _hand_force(case: Case) -> tuple[float, float] | None:
     if not case.seated.loops:
         return None
-    model = multibody.bicycle_model(case.bicycle, case.rider, case.posture, case.shoulder)
+    model = multibody.bicycle_model(case.bicycle, case.rider, case.options)
     force = multibody.loop_forces(multibody.ride(model, 0.0))["right hand"]
     return float(force[0]), float(force[2])

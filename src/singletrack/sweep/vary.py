@@ -17,7 +17,7 @@ _ENTRIES = {"range": ("from", "to", "count"), "uniform": ("from", "to"), "normal
 _SHAPES = (
     'a list of values, { from, to, count }, { from, to } (uniform) or { distribution = "normal", mean, deviation }'
 )
-_MOST = 10_000_000
+_MOST = 1_000_000
 
 
 def parse_variation(name: str, found: Any, place: str, *, with_rider: bool) -> Variation:
@@ -78,7 +78,7 @@ def _number(entry: str, found: object, unit: str, place: str) -> float:
     try:
         value = parse_quantity(found, unit).value
     except InputError as error:
-        raise InputError(f"{place}: {entry} = {error}") from None
+        raise error.of(entry).at(place) from None
     if not np.isfinite(value):
         raise InputError(f"{place}: {entry} = {found!r}, must be a finite number")
     return value

@@ -25,14 +25,14 @@ from singletrack.multibody import (
     steady_motion,
     wheel_forces,
 )
-from singletrack.posture import seat
+from singletrack.posture import Options, seat
 
 NAMES = ("M", "C1", "K0", "K2")
 SEATS = [("rigid", None), ("upright", None), ("upright", "abduction"), ("leaned", "abduction"), ("leaned", "axial")]
 
 
 def assert_engines_agree(bicycle: Any, rider: Any, posture: Any, shoulder: Any = None) -> Any:
-    ours = coefficients(bicycle, rider, posture, shoulder)
+    ours = coefficients(bicycle, rider, Options(posture, shoulder))
     theirs = closed_form(bicycle, rider, posture, shoulder)
     for name in NAMES:
         one, other = getattr(ours, name), np.asarray(getattr(theirs, name))

@@ -11,13 +11,12 @@ from singletrack.multibody.engine.linearise import speed_polynomials
 
 if TYPE_CHECKING:
     from singletrack.parameters import Bicycle, Rider
+    from singletrack.posture import Options
 
 __all__ = ["coefficients"]
 
 
-def coefficients(
-    bicycle: Bicycle, rider: Rider | None = None, posture: str = "rigid", shoulder: str | None = None
-) -> LinearModel:
+def coefficients(bicycle: Bicycle, rider: Rider | None = None, options: Options | str = "rigid") -> LinearModel:
     """Return the coefficient matrices that follow from the full nonlinear equations of motion.
 
     Independent of the closed form in ``singletrack.closed_form``: every joint of the rider moves, hands and wheels are
@@ -27,10 +26,8 @@ def coefficients(
     ----------
     bicycle, rider
         One design; numbers, no arrays.
-    posture
-        ``rigid``, ``leaned`` or ``upright``.
-    shoulder
-        ``abduction`` or ``axial``.
+    options
+        How the rider sits, or a posture's name.
 
     Raises
     ------
@@ -40,11 +37,11 @@ def coefficients(
     Examples
     --------
     >>> from singletrack import load_bicycle, load_rider
-    >>> both = coefficients(load_bicycle("browser"), load_rider("rider-a"), posture="upright")
+    >>> both = coefficients(load_bicycle("browser"), load_rider("rider-a"), "upright")
     >>> round(float(both.M[1, 1]), 4), round(float(both.gravity * both.K0[1, 1]), 4)
     (0.4614, 2.3268)
     """
-    model = bicycle_model(bicycle, rider, posture, shoulder)
+    model = bicycle_model(bicycle, rider, options)
     rolling = {"rear wheel": -1.0 / model.system.parameters["rear radius"]}
     p = speed_polynomials(assemble(model), rolling, ("lean", "steer"))
     return LinearModel(p.M, p.C1, p.K0, p.K2, float(bicycle.gravity))

@@ -23,7 +23,7 @@ from singletrack.multibody.engine.connections import CoordinateForce, Wheel
 from singletrack.multibody.engine.elements import GROUND, Body, free, revolute
 from singletrack.multibody.engine.model import Model, build
 from singletrack.multibody.engine.system import System
-from singletrack.posture import seat
+from singletrack.posture import Options, seat
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -47,6 +47,16 @@ def _refuse_batches(*records: Bicycle | Rider | None) -> None:
                     f"{name}: an array of shape {np.shape(value)}; the multibody engine takes one design at a time, "
                     "a number is needed (the closed form takes batches)"
                 )
+
+
+def _refuse_skates(bicycle: Bicycle) -> None:
+    for name in ("rear_wheel_radius", "front_wheel_radius"):
+        if getattr(bicycle, name) == 0:
+            raise InputError(
+                f"{bicycle.name}: {name} = 0 m, must be greater than zero: the multibody engine rolls wheels "
+                "(the closed form takes skates)",
+                parameters=(name,),
+            )
 
 
 def _solid(numbers: Numbers, name: str, solid: Solid) -> Body:
@@ -112,9 +122,7 @@ def _elements(bicycle: Bicycle, posture: Posture | None, numbers: Numbers) -> di
     }
 
 
-def bicycle_model(
-    bicycle: Bicycle, rider: Rider | None = None, posture: str = "rigid", shoulder: str | None = None
-) -> Model:
+def bicycle_model(bicycle: Bicycle, rider: Rider | None = None, options: Options | str = "rigid") -> Model:
     """Return the full nonlinear model of a bicycle, with a rider in a posture.
 
     Designs of one kind share one derivation: only the first takes time.
@@ -123,8 +131,8 @@ def bicycle_model(
     ----------
     bicycle, rider
         One design; numbers, no arrays.
-    posture, shoulder
-        As for :func:`singletrack.posture.seat`.
+    options
+        How the rider sits, or a posture's name.
 
     Raises
     ------
@@ -140,9 +148,11 @@ def bicycle_model(
     ('lean', 'steer', 'rear wheel')
     """
     _refuse_batches(bicycle, rider)
-    if rider is None and posture != "rigid":
-        raise InputError(f"posture {posture} needs a rider; allowed without one: rigid")
-    seated = None if rider is None else seat(bicycle, rider, posture, shoulder)
+    _refuse_skates(bicycle)
+    options = Options.of(options)
+    if rider is None:
+        options.require_rider()
+    seated = None if rider is None else seat(bicycle, rider, options)
     numbers = Numbers()
     elements = _elements(bicycle, seated, numbers)
     system = System(

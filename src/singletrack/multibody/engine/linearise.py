@@ -14,6 +14,7 @@ import numpy as np
 
 from singletrack.arrays import Array
 from singletrack.errors import ModelError, unknown_name
+from singletrack.model import LinearModel
 from singletrack.multibody.engine.assembly import move
 from singletrack.multibody.engine.dynamics import accelerations, input_vector
 from singletrack.multibody.engine.model import State
@@ -25,7 +26,7 @@ if TYPE_CHECKING:
     from singletrack.multibody.engine.dynamics import Response
     from singletrack.multibody.engine.variations import Variations
 
-__all__ = ["Linearisation", "SpeedPolynomials", "linearise", "speed_polynomials"]
+__all__ = ["Linearisation", "linearise", "speed_polynomials"]
 
 NEGLIGIBLE = 1e-10
 
@@ -223,27 +224,12 @@ def _sensor_gradients(state: State) -> tuple[Array, Array]:
     return out[0].full(), out[1].full()
 
 
-@dataclass(frozen=True, eq=False)
-class SpeedPolynomials:
-    """Straight running at any speed v and gravity g: ``M q'' + (C0 + v C1) q' + (S0 + g K0 + v^2 K2) q = B f``.
+def speed_polynomials(upright: State, rolling: Mapping[str, float], names: Sequence[str]) -> LinearModel:
+    """Return the linear model of straight running: the equations as exact polynomials in speed and gravity.
 
-    C0 and S0 come from dampers and springs; all matrices are (k, k), B is (k, inputs).
-    """
-
-    M: Array
-    C0: Array
-    C1: Array
-    S0: Array
-    K0: Array
-    K2: Array
-    B: Array
-
-
-def speed_polynomials(upright: State, rolling: Mapping[str, float], names: Sequence[str]) -> SpeedPolynomials:
-    """Return the linearised equations of straight running as exact polynomials in speed and gravity.
-
-    The equations of a machine are quadratic in its speeds and linear in gravity, so the coefficients follow exactly
-    from the linearisations at rest and at unit speed, without and with gravity.
+    C0 and S0 come from dampers and springs. The equations of a machine are quadratic in its speeds and linear in
+    gravity, so the coefficients follow exactly from the linearisations at rest and at unit speed, without and with
+    gravity.
 
     Parameters
     ----------
@@ -252,7 +238,12 @@ def speed_polynomials(upright: State, rolling: Mapping[str, float], names: Seque
     rolling
         Rates of independent speeds at a forward speed of 1 m/s, such as ``{"rear wheel": -1 / radius}``.
     names
-        The freedoms to keep, such as ``("lean", "steer")``.
+        The freedoms to keep, such as ``("lean", "steer")``; any number of them.
+
+    Returns
+    -------
+    LinearModel
+        Of these coordinates and of all inputs of the machine, at its gravity.
 
     Examples
     --------
@@ -269,7 +260,7 @@ def speed_polynomials(upright: State, rolling: Mapping[str, float], names: Seque
     still = linearise(replace(upright, parameters=weightless), keep=names).select(names)
     heavy_still = linearise(replace(upright, parameters=heavy), keep=names).select(names)
     moving = linearise(move(replace(upright, parameters=weightless), rolling), keep=names).select(names)
-    return SpeedPolynomials(
+    return LinearModel(
         M=still[0],
         C0=still[1],
         C1=moving[1] - still[1],
@@ -277,4 +268,7 @@ def speed_polynomials(upright: State, rolling: Mapping[str, float], names: Seque
         K0=heavy_still[2] - still[2],
         K2=moving[2] - still[2],
         B=still[3],
+        gravity=upright.parameters[0],
+        coordinates=tuple(names),
+        inputs=tuple(given.name for given in upright.model.system.inputs),
     )

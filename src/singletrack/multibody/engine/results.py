@@ -27,18 +27,18 @@ if TYPE_CHECKING:
     from singletrack.arrays import Array
     from singletrack.multibody.engine.inputs import Signal
 
-__all__ = ["Sample", "gather"]
+__all__ = ["Snapshot", "gather"]
 
 
 @dataclass(frozen=True, eq=False)
-class Sample:
+class Snapshot:
     """A state at a time (s)."""
 
     time: float
     state: State
 
 
-def _responses(samples: Sequence[Sample], inputs: Array) -> tuple[Array, Array]:
+def _responses(samples: Sequence[Snapshot], inputs: Array) -> tuple[Array, Array]:
     """Return accelerations (k, n) and multipliers (k, rows) of all samples."""
     a, multipliers, start = [], [], 0
     for parts, group in groupby(samples, key=lambda sample: sample.state.partition):
@@ -62,14 +62,14 @@ def gather(
     start: State,
     driven: Sequence[Signal],
     times: Array,
-    samples: Sequence[Sample],
+    samples: Sequence[Snapshot],
     passages: Sequence[tuple[str, float]],
 ) -> xr.Dataset:
     """Collect the samples of a simulation into a data set (see the module's text)."""
     import xarray as xr  # slow to import
 
     if not samples or samples[0].time > times[0]:
-        samples = [Sample(float(times[0]), start), *samples]
+        samples = [Snapshot(float(times[0]), start), *samples]
     t = np.array([sample.time for sample in samples])
     inputs = np.array([[signal(moment) for signal in driven] for moment in t]).reshape(len(t), len(driven))
     variables = _variables(start, samples, inputs)
@@ -89,7 +89,7 @@ def gather(
     return xr.Dataset(variables, coords=coords)
 
 
-def _variables(start: State, samples: Sequence[Sample], inputs: Array) -> dict[str, Any]:
+def _variables(start: State, samples: Sequence[Snapshot], inputs: Array) -> dict[str, Any]:
     """Return dimensions and values of all that varies over time."""
     system, equations, p, count = start.model.system, start.model.equations, start.parameters, len(samples)
     q, u = (np.array([getattr(sample.state, name) for sample in samples]) for name in ("q", "u"))

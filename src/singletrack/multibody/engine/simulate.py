@@ -16,7 +16,7 @@ from singletrack.multibody.engine.dynamics import reduced, right_side
 from singletrack.multibody.engine.inputs import Signal, signals
 from singletrack.multibody.engine.model import State
 from singletrack.multibody.engine.partition import partition
-from singletrack.multibody.engine.results import Sample, gather
+from singletrack.multibody.engine.results import Snapshot, gather
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -58,7 +58,7 @@ class _Run:
     times: Array
     options: dict[str, Any]
     solver: Any
-    samples: list[Sample] = field(default_factory=list)
+    samples: list[Snapshot] = field(default_factory=list)
     passages: list[tuple[str, float]] = field(default_factory=list)
     next_sample: int = 0
     ended: bool = False
@@ -246,7 +246,7 @@ def _record(run: _Run, stop: float, dense: Any) -> None:
     """Keep the results due up to a time, and the last moment if the simulation ends there."""
     while run.next_sample < len(run.times) and run.times[run.next_sample] <= stop:
         t = run.times[run.next_sample]
-        run.samples.append(Sample(t, _project(run.state, dense(t))))
+        run.samples.append(Snapshot(t, _project(run.state, dense(t))))
         run.next_sample += 1
     if run.ended and run.samples[-1].time < stop:
-        run.samples.append(Sample(stop, run.state))
+        run.samples.append(Snapshot(stop, run.state))

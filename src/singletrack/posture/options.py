@@ -1,0 +1,96 @@
+"""How the rider sits and what is sprung: everything a model is made with beside bicycle and rider."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Self
+
+import numpy as np
+
+from singletrack.arrays import Array, is_concrete
+from singletrack.errors import InputError, unknown_name
+
+__all__ = ["ARMS", "POSTURES", "SHOULDERS", "Options"]
+
+POSTURES = ("rigid", "leaned", "upright")
+SHOULDERS = ("abduction", "axial")
+ARMS = ("straight", "bent")
+
+
+@dataclass(frozen=True)
+class Options:
+    """How a rider sits, holds the handlebar and is sprung.
+
+    Attributes
+    ----------
+    posture : str
+        A shipped posture's name.
+    shoulder : {"abduction", "axial"}, optional
+        Second axis of the shoulder joint; by default as the posture has it.
+    arms : {"straight", "bent"}, optional
+        Of the leaned posture.
+    torso_lean : bool
+        Whether the torso may lean sideways, about a hinge along x at the hips.
+    springs, dampers : mapping of str to array
+        Stiffness in N m/rad and damping in N m s/rad by joint, or ``steer``.
+
+    Raises
+    ------
+    InputError
+        For a name that is not known, an option that the posture does not have, a number that is negative or not finite.
+
+    Examples
+    --------
+    >>> Options("leaned").posture, Options.of("upright").torso_lean
+    ('leaned', False)
+    """
+
+    posture: str = "rigid"
+    shoulder: str | None = None
+    arms: str | None = None
+    torso_lean: bool = False
+    springs: Mapping[str, Array] = field(default_factory=dict)
+    dampers: Mapping[str, Array] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        for what, found, known in (
+            ("posture", self.posture, POSTURES),
+            ("shoulder", self.shoulder, SHOULDERS),
+            ("arms", self.arms, ARMS),
+        ):
+            if found is not None and found not in known:
+                raise InputError(unknown_name(what, str(found), known))
+        if self.arms is not None and self.posture != "leaned":
+            raise InputError(
+                f"arms = {self.arms}: only the posture leaned has straight or bent arms, not {self.posture}"
+            )
+        for what, unit, values in (("spring", "N m/rad", self.springs), ("damper", "N m s/rad", self.dampers)):
+            for joint, value in values.items():
+                _refuse_negative(f"{what} at {joint}", value, unit)
+        object.__setattr__(self, "springs", dict(self.springs))
+        object.__setattr__(self, "dampers", dict(self.dampers))
+
+    @classmethod
+    def of(cls, options: Options | str) -> Self:
+        """Return options as they are, or those of a posture's name alone."""
+        return options if isinstance(options, cls) else cls(options)  # type: ignore[arg-type]
+
+    def require_rider(self) -> None:
+        """Raise InputError if a rider is needed: there is none."""
+        for what, wanted in (
+            (f"posture {self.posture}", self.posture != "rigid"),
+            ("torso lean", self.torso_lean),
+        ):
+            if wanted:
+                raise InputError(f"{what} needs a rider; allowed without one: rigid")
+
+
+def _refuse_negative(what: str, value: Array, unit: str) -> None:
+    if not is_concrete(value):
+        return
+    numbers = np.asarray(value)
+    if numbers.dtype.kind not in "iufc":
+        raise InputError(f"{what}: found {value!r}, must be a number in {unit}")
+    if not np.isfinite(numbers).all() or (numbers.real < 0).any():
+        raise InputError(f"{what}: found {value} {unit}, must be a finite number of zero or more")
