@@ -17,7 +17,7 @@ from singletrack.multibody.spacar.linearise import SmallMotions, small_motions
 from singletrack.multibody.spacar.rows import Rows, Solver, choose, names
 from singletrack.multibody.spacar.simulate import simulate
 from singletrack.multibody.spacar.state import Motion, State, accelerate, configure, prescribed, rates
-from singletrack.multibody.spacar.statements import Source, parse, write
+from singletrack.multibody.spacar.statements import MOST_CHARACTERS, Source, parse, write
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -260,7 +260,8 @@ def read(path: str | Path, mass: str = "consistent") -> Spacar:
         Where the file cannot be read; else with file, line, keyword and reason.
     """
     try:
-        content = Path(path).read_bytes()
+        with Path(path).open("rb") as file:
+            content = file.read(MOST_CHARACTERS + 1)  # more is refused; an endless device is not read on
     except OSError as error:
         raise InputError(f"{path}: cannot be read: {error.strerror or error}") from None
-    return read_text(content.decode("utf-8", errors="replace"), str(path), mass)
+    return read_text(content.decode("utf-8-sig", errors="replace"), str(path), mass)

@@ -75,8 +75,8 @@ class Placing:
         # Without a given axis: the axis of the ground that is most perpendicular, y where there are several.
         order = np.array([1, 2, 0])
         plain = int(order[np.argmin(np.round(abs(x[order]), 9))])
-        given = np.array(e.axis) if e.axis else np.eye(3)[plain]
-        across = given - (given @ x) * x
+        given: Array = np.array(e.axis) if e.axis else np.eye(3)[plain]
+        across = given - np.dot(given, x) * x
         if np.linalg.norm(across) <= 1e-9 * max(np.linalg.norm(given), 1e-300):
             raise self.refuse(number, "its y axis is zero or lies along the beam")
         y = across / np.linalg.norm(across)
