@@ -77,7 +77,7 @@ class Placing:
         plain = int(order[np.argmin(np.round(abs(x[order]), 9))])
         given: Array = np.array(e.axis) if e.axis else np.eye(3)[plain]
         across = given - np.dot(given, x) * x
-        if np.linalg.norm(across) <= 1e-9 * max(np.linalg.norm(given), 1e-300):
+        if float(np.linalg.norm(across)) <= 1e-9 * float(np.linalg.norm(given)):
             raise self.refuse(number, "its y axis is zero or lies along the beam")
         y = across / np.linalg.norm(across)
         return np.stack([x, y, np.cross(x, y)])
@@ -108,7 +108,7 @@ class Placing:
             axis = np.array(e.axis or (1.0, 0.0))
             if not np.linalg.norm(axis) > 1e-12:
                 raise self.refuse(number, "its axis is zero")
-            along = (axis / np.linalg.norm(axis)) @ self.turn(n[1])
+            along = (axis / float(np.linalg.norm(axis))) @ self.turn(n[1])
             away = (self.at(n[2]) - self.at(n[0])) @ self.turn(n[1])
             across = np.array([-along[1], along[0]])
             return np.concatenate([self.at(n[3]) - self.at(n[1]), along, [along @ away, across @ away]])
