@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
@@ -11,19 +10,17 @@ from singletrack.arrays import Array
 from singletrack.errors import InputError
 from singletrack.multibody.spacar.description import Description, Key
 from singletrack.multibody.spacar.kinds import KINDS
+from singletrack.multibody.spacar.loading import (
+    Group,
+    distributed_masses,
+    lump,
+    point_loads,
+    point_masses,
+    springs,
+)
 from singletrack.multibody.spacar.placing import Placing
 
 __all__ = ["Group", "Layout", "lay_out"]
-
-
-@dataclass(frozen=True, eq=False)
-class Group:
-    """All elements (or masses) of a kind: coordinates (n, width), deformations (n, e), parameters (n, p)."""
-
-    kind: str
-    x: Array
-    e: Array
-    p: Array
 
 
 @dataclass(frozen=True, eq=False)
@@ -94,79 +91,6 @@ def _groups(d: Description, x_index: dict[Key, int], e_index: dict[Key, int]) ->
     return groups
 
 
-def _gravity(d: Description, dimension: int) -> Array:
-    return np.array([*d.gravity, 0.0, 0.0, 0.0][:dimension])
-
-
-def _masses(d: Description, groups: list[Group], x_index: dict[Key, int]) -> list[Group]:
-    """Return distributed masses by kind, and rotors."""
-    masses = []
-    for group in groups:
-        mass = KINDS[group.kind].mass
-        numbers = [k for k, e in d.elements.items() if e.kind == group.kind]
-        carry = [i for i, k in enumerate(numbers) if k in d.line_masses]
-        if mass is None or not carry:
-            continue
-        line = np.array([(*d.line_masses[numbers[i]], 0.0)[:2] for i in carry])
-        p, length = group.p[carry], group.p[carry, :1]
-        gravity = np.tile(_gravity(d, int(mass[-1])), (len(carry), 1))
-        parts = [line[:, :1] * length, gravity]
-        if mass == "beam3":
-            parts += [length, p[:, 1:4], p[:, 10:13], line[:, 1:] * length]
-        elif mass == "beam2":
-            parts += [length, p[:, 1:]]
-        masses.append(Group(mass, group.x[carry], np.zeros((len(carry), 0), int), np.concatenate(parts, axis=1)))
-    rotors = [node for node in d.masses if d.nodes[node] == "o3"]
-    if rotors:
-        x = np.array([[x_index[node, i] for i in (1, 2, 3, 4)] for node in rotors])
-        masses.append(Group("rotor", x, np.zeros((len(rotors), 0), int), np.array([d.masses[n] for n in rotors])))
-    return masses
-
-
-def _lump(d: Description, groups: list[Group], lumped: Array, weights: Array) -> None:
-    """Put half of the mass of every element on its end positions."""
-    for group in groups:
-        if KINDS[group.kind].mass is None:
-            continue
-        for number, x, p in zip(
-            [k for k, e in d.elements.items() if e.kind == group.kind], group.x, group.p, strict=True
-        ):
-            if number in d.line_masses:
-                dimension = int(str(KINDS[group.kind].mass)[-1])
-                half = d.line_masses[number][0] * p[0] / 2
-                for start in (0, len(x) // 2):
-                    ends = x[start : start + dimension]
-                    lumped[ends] += half
-                    weights[ends] += half * _gravity(d, dimension)
-
-
-def _springs(d: Description, e_index: dict[Key, int], groups: list[Group], constants: dict[int, Any]) -> Array:
-    size = len(e_index)
-    matrix = np.zeros((size, size))
-    lengths = {
-        k: p[0]
-        for g in groups
-        for k, p in zip([k for k, e in d.elements.items() if e.kind == g.kind], g.p, strict=True)
-    }
-    bending = np.array([[4.0, -2.0], [-2.0, 4.0]])
-    for number, values in constants.items():
-        kind = KINDS[d.elements[number].kind]
-        i = e_index[number, 1]
-        if kind.mass is None:
-            for k, value in enumerate(values):
-                matrix[i + k, i + k] = value
-            continue
-        length = lengths[number]
-        matrix[i, i] = values[0] / length
-        if kind.mass == "beam3":
-            matrix[i + 1, i + 1] = values[1] / length**3
-            matrix[i + 2 : i + 4, i + 2 : i + 4] = values[2] / length**3 * bending
-            matrix[i + 4 : i + 6, i + 4 : i + 6] = values[3] / length**3 * bending
-        elif kind.mass == "beam2":
-            matrix[i + 1 : i + 3, i + 1 : i + 3] = values[1] / length**3 * bending
-    return matrix
-
-
 def lay_out(d: Description, mass: str = "consistent") -> Layout:
     """Return a description as arrays.
 
@@ -190,59 +114,64 @@ def lay_out(d: Description, mass: str = "consistent") -> Layout:
     e_index: dict[Key, int] = {}
     for number in d.elements:
         e_index |= {(number, i + 1): len(e_index) + i for i in range(d.components(number))}
-    groups = _groups(d, x_index, e_index)
-    n = len(x_index)
     drawn = np.array([value for node in d.nodes for value in d.coordinates(node)])
-    x_is = np.full(n, "calculated", dtype=object)
-    for key, freedom in d.x_freedoms.items():
-        x_is[x_index[key]] = freedom
-    hidden = [
-        [x_index[node, i] for i in (1, 2, 3, 4)]
-        for node, kind in d.nodes.items()
-        if kind == "o3" and any(d.x_freedoms.get((node, i)) != "fixed" for i in (1, 2, 3, 4))
-    ]
-    m = len(e_index)
-    e_is = np.full(m + len(hidden), "fixed", dtype=object)
-    for key, freedom in d.e_freedoms.items():
-        e_is[e_index[key]] = freedom
-    springs, dampers = (_springs(d, e_index, groups, c) for c in (d.stiffness, d.damping))
-    if hidden:
-        rows = np.arange(m, m + len(hidden))[:, None]
-        groups.append(Group("EULER", np.array(hidden), rows, np.zeros((len(hidden), 0))))
-    lumped, weights = _point_masses(d, x_index, n)
-    loads, moments = _loads(d, x_index, n)
-    masses = _masses(d, groups[: len(groups) - bool(hidden)], x_index)
+    elements, hidden = _groups(d, x_index, e_index), _unit_lengths(d, x_index, len(e_index))
+    size = len(e_index) + sum(len(group.e) for group in hidden)
+    x_is = _freedoms(len(x_index), x_index, d.x_freedoms, "calculated")
+    e_is = _freedoms(size, e_index, d.e_freedoms, "fixed")
+    lumped, weights = point_masses(d, x_index)
+    masses = distributed_masses(d, elements, x_index)
     if mass == "lumped":
-        _lump(d, groups[: len(groups) - bool(hidden)], lumped, weights)
+        lump(d, elements, lumped, weights)
         masses = [group for group in masses if group.kind == "rotor"]
-    slips = [
-        group.e[:, KINDS[group.kind].holonomic :].ravel() for group in groups if group.kind in {"WHEEL", "PLWHEEL"}
-    ]
-    holonomic = np.ones(len(e_is), dtype=bool)
-    for slip in slips:
-        holonomic[slip] = False
-    angles = [e_index[k, a + 1] for k, e in d.elements.items() for a in KINDS[e.kind].angles]
-    pad = ((0, len(hidden)), (0, len(hidden)))
+    loads, moments = point_loads(d, x_index)
     return Layout(
-        d,
-        x_index,
-        e_index,
-        drawn,
-        tuple(groups),
-        tuple(masses),
-        lumped,
-        x_is,
-        e_is,
-        holonomic,
-        np.array(angles, dtype=int),
-        np.pad(springs, pad),
-        np.pad(dampers, pad),
-        loads,
-        weights,
-        moments,
-        _prescribed(e_is, e_index, d.initial_e, np.zeros(len(e_is))),
-        _prescribed(x_is, x_index, d.initial_x, drawn),
+        description=d,
+        x_index=x_index,
+        e_index=e_index,
+        drawn=drawn,
+        groups=(*elements, *hidden),
+        masses=tuple(masses),
+        lumped=lumped,
+        x_is=x_is,
+        e_is=e_is,
+        holonomic=_holonomic(elements, size),
+        angles=np.array([e_index[k, a + 1] for k, e in d.elements.items() for a in KINDS[e.kind].angles], dtype=int),
+        elastic=springs(d, e_index, elements, d.stiffness, size),
+        viscous=springs(d, e_index, elements, d.damping, size),
+        loads=loads,
+        weights=weights,
+        moments=moments,
+        e_motion=_prescribed(e_is, e_index, d.initial_e, np.zeros(size)),
+        x_motion=_prescribed(x_is, x_index, d.initial_x, drawn),
     )
+
+
+def _freedoms(size: int, index: dict[Key, int], given: dict[Key, str], default: str) -> Array:
+    freedoms = np.full(size, default, dtype=object)
+    for key, freedom in given.items():
+        freedoms[index[key]] = freedom
+    return freedoms
+
+
+def _unit_lengths(d: Description, x_index: dict[Key, int], first: int) -> list[Group]:
+    """Return the hidden elements that keep the length of Euler parameters, where these are not all fixed."""
+    components = (1, 2, 3, 4)
+    x = [
+        [x_index[node, i] for i in components]
+        for node, kind in d.nodes.items()
+        if kind == "o3" and any(d.x_freedoms.get((node, i)) != "fixed" for i in components)
+    ]
+    if not x:
+        return []
+    return [Group("EULER", np.array(x), np.arange(first, first + len(x))[:, None], np.zeros((len(x), 0)))]
+
+
+def _holonomic(elements: list[Group], size: int) -> Array:
+    holonomic = np.ones(size, dtype=bool)
+    for group in elements:
+        holonomic[group.e[:, KINDS[group.kind].holonomic :]] = False
+    return holonomic
 
 
 def _prescribed(
@@ -255,29 +184,3 @@ def _prescribed(
             if np.isnan(motion[0, i]):
                 motion[0, i] = drawn[i]
     return motion
-
-
-def _point_masses(d: Description, x_index: dict[Key, int], n: int) -> tuple[Array, Array]:
-    """Return the diagonal of point masses and their weight, (n,) each."""
-    lumped, weights = np.zeros(n), np.zeros(n)
-    for node, values in d.masses.items():
-        if d.nodes[node] != "o3":
-            width = d.width(node)
-            own = slice(x_index[node, 1], x_index[node, 1] + width)
-            lumped[own] += values[0]
-            if d.nodes[node].startswith("p"):
-                weights[own] += values[0] * _gravity(d, width)
-    return lumped, weights
-
-
-def _loads(d: Description, x_index: dict[Key, int], n: int) -> tuple[Array, tuple[tuple[int, Array, Array], ...]]:
-    """Return constant generalised forces (n,), and moments on orientations in space."""
-    loads, moments = np.zeros(n), []
-    for node in sorted({*d.forces, *d.torques}):
-        first, force = x_index[node, 1], d.forces.get(node, ())
-        if d.nodes[node] != "o3" or len(force) == 4:
-            loads[first : first + d.width(node)] += force
-            force = ()
-        if d.nodes[node] == "o3":
-            moments.append((first, np.array(force or (0.0,) * 3), np.array(d.torques.get(node, (0.0,) * 3))))
-    return loads, tuple(moments)
