@@ -47,7 +47,7 @@ def print_record(console: Console, record: Bicycle | Rider) -> None:
 def print_results(console: Console, bicycle: Bicycle, rider: Rider | None, options: Options) -> None:
     """Print the matrices, critical speeds and stable ranges, with standard deviations where known."""
     found = uncertain_results(bicycle, rider, options if rider is not None else Options())
-    who = f" with {rider.name or 'rider'}, {options.posture}" if rider is not None else ""
+    who = f" with {rider.name or 'rider'}, {options.name}" if rider is not None else ""
     console.print(Text(f"linear equations{who}", style="bold"))
     for name, matrix in found["matrices"].items():
         for i, row in enumerate(matrix):
