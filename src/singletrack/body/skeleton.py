@@ -243,10 +243,14 @@ def _two_links(distance: Array, first: Array, second: Array, limb: str) -> tuple
     found = {"distance": distance, "reach": first + second, "least": xp.abs(first - second)}
     text = f"the {ends} distance is {{distance:.4f}} m, but the {limb} ({' + '.join(names)}) "
     too_far, too_near = distance > first + second, distance < xp.abs(first - second)
-    return along, aside, [
-        Fault(too_far, text + "reaches only {reach:.4f} m", found, PostureError, names, "within reach"),
-        Fault(too_near, text + "cannot fold below {least:.4f} m", found, PostureError, names, "within reach"),
-    ]
+    return (
+        along,
+        aside,
+        [
+            Fault(too_far, text + "reaches only {reach:.4f} m", found, PostureError, names, "within reach"),
+            Fault(too_near, text + "cannot fold below {least:.4f} m", found, PostureError, names, "within reach"),
+        ],
+    )
 
 
 _LIMBS = {

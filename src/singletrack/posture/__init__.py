@@ -1,16 +1,18 @@
 """Which segments of the rider move with the steer, and how."""
 
 from singletrack.posture.bodies import SlavedBodies, slaved_bodies
-from singletrack.posture.mechanism import Mechanism
-from singletrack.posture.options import ARMS, POSTURES, SHOULDERS, Options
+from singletrack.posture.mechanism import HANDLEBAR, Mechanism
+from singletrack.posture.options import ARMS, POSTURES, SHOULDERS, STEER, Options, input_name
 from singletrack.posture.seated import Joint, Loop, Posture, seat, steer_axis
 from singletrack.posture.shipped import TORSO_LEAN, load_posture
 from singletrack.posture.steered import steered_skeleton
 
 __all__ = [
     "ARMS",
+    "HANDLEBAR",
     "POSTURES",
     "SHOULDERS",
+    "STEER",
     "TORSO_LEAN",
     "Joint",
     "Loop",
@@ -18,6 +20,7 @@ __all__ = [
     "Options",
     "Posture",
     "SlavedBodies",
+    "input_name",
     "load_posture",
     "seat",
     "slaved_bodies",

@@ -131,7 +131,9 @@ class _Reader:
         if not isinstance(free, bool):
             raise InputError(f"{self.where}: {of}free = {free!r}, must be true or false")
         if free and "preload" in entry:
-            raise InputError(f"{self.where}: {of}preload: a free joint has the preload that balances it at rest; remove it")
+            raise InputError(
+                f"{self.where}: {of}preload: a free joint has the preload that balances it at rest; remove it"
+            )
         units = _UNITS[kind]
         return JointPlan(
             entry["name"],
@@ -183,7 +185,9 @@ class _Reader:
             start, end = (self.number_of_point(found.get(key), f"{what}: {key}") for key in ("from", "to"))
             share = found.get("share", 0.5)
             if isinstance(share, bool) or not isinstance(share, int | float) or not math.isfinite(share):
-                raise InputError(f"{self.where}: {what}: share = {share!r}, must be a number, such as 0.5 for the middle")
+                raise InputError(
+                    f"{self.where}: {what}: share = {share!r}, must be a number, such as 0.5 for the middle"
+                )
             return Place(start, end, float(share))
         if found is None:
             raise InputError(

@@ -78,7 +78,9 @@ class Motion:
 
 
 def _cross(a: Array, b: Array) -> Array:
-    return stack([a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]], -max(a.ndim, b.ndim))
+    return stack(
+        [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]], -max(a.ndim, b.ndim)
+    )
 
 
 def _dot(a: Array, b: Array) -> Array:

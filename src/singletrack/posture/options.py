@@ -13,11 +13,22 @@ from singletrack.errors import InputError, unknown_name
 from singletrack.library import shipped
 from singletrack.posture.mechanism import Mechanism
 
-__all__ = ["ARMS", "POSTURES", "SHOULDERS", "Options"]
+__all__ = ["ARMS", "POSTURES", "SHOULDERS", "STEER", "Options", "input_name"]
 
 POSTURES = ("rigid", "leaned", "upright")
 SHOULDERS = ("abduction", "axial")
 ARMS = ("straight", "bent")
+#: What springs and dampers may act on beside joints and hands.
+STEER = "steer"
+
+
+def input_name(joint: str) -> str:
+    """Return the name of the torque (or force) that works on a free joint.
+
+    >>> input_name("torso lean"), input_name("right elbow")
+    ('torso torque', 'right elbow torque')
+    """
+    return "torso torque" if joint == "torso lean" else f"{joint} torque"
 
 
 @dataclass(frozen=True)
@@ -86,6 +97,7 @@ class Options:
         for what, wanted in (
             (f"posture {self.name}", self.posture != "rigid"),
             ("torso lean", self.torso_lean),
+            *((f"a spring or damper at {name}", True) for name in (*self.springs, *self.dampers) if name != STEER),
         ):
             if wanted:
                 raise InputError(f"{what} needs a rider; allowed without one: rigid")

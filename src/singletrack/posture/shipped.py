@@ -12,18 +12,18 @@ from singletrack.files.source import read_text
 from singletrack.library import shipped
 from singletrack.posture.mechanism import FRAME, Direction, JointPlan, LoopPlan, Mechanism, Place
 from singletrack.posture.mechanism_file import parse_mechanism
+from singletrack.posture.options import STEER, Options
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from singletrack.arrays import Array
-    from singletrack.posture.options import Options
 
 __all__ = ["TORSO_LEAN", "load_posture", "mechanism_of"]
 
 #: The hinge along x at the hips of the journal version (2012), under all of the upper body.
 TORSO_LEAN = "torso lean"
-_STEER, _HANDS = "steer", "hands"
+_HANDS = "hands"
 #: File of each shipped posture by its options (shoulder, arms); the first is the default.
 _VARIANTS = {
     "upright": {("axial", None): "upright-axial", ("abduction", None): "upright-abduction"},
@@ -149,7 +149,7 @@ def _sprung(mechanism: Mechanism, springs: Mapping[str, Array], dampers: Mapping
     """Return a mechanism with springs and dampers at joints and hands by name, in place of its own."""
     joints = {joint.name: joint for joint in mechanism.joints}
     loops = {loop.name: loop for loop in mechanism.loops if loop.point is not None}
-    known = [*joints, *loops, *([_HANDS] if loops else []), _STEER]
+    known = [*joints, *loops, *([_HANDS] if loops else []), STEER]
     for what, values in (("stiffness", springs), ("damping", dampers)):
         for name, value in values.items():
             if name not in known:

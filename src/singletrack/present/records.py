@@ -102,9 +102,7 @@ def _derived_bicycle(b: Bicycle) -> Iterator[Row]:
 
 def _derived_rider(r: Rider) -> Iterator[Row]:
     group = "segments"
-    yield Row(
-        group, "torso", f"{_number(float(r.torso_width))} x {_number(float(r.torso_thickness))} m", "", "wide, thick"
-    )
+    yield Row(group, "torso", " x ".join(_number(float(size)) for size in r.torso_section) + " m", "", "wide, thick")
     for name in ("head", "torso", "upper_arm", "lower_arm", "upper_leg", "lower_leg"):
         mass = float(getattr(r, f"{name}_mass_fraction")) * float(r.rider_mass)
         yield Row(group, f"{name.replace('_', ' ')} mass", f"{_number(mass)} kg", "", "one side" if "_" in name else "")

@@ -9,7 +9,6 @@ import numpy as np
 
 from singletrack.body import skeleton
 from singletrack.posture import steer_axis
-from singletrack.posture.motion import rider_motion
 from singletrack.public import coefficients
 from singletrack.reproduce.cases import SPEEDS
 from singletrack.reproduce.claim import Claim, first_speed, gk0_22, m_22
