@@ -78,8 +78,19 @@ def coefficients(bicycle: Bicycle, rider: Rider | None = None, options: Options 
         _both(None if own is None else _bordered(own), steer)
         for own, steer in zip(of_joints, _steer_laws(options, 1 + more), strict=True)
     )
-    names = {"coordinates": (*COORDINATES, *bodies.freedoms), "inputs": (*INPUTS, *map(input_name, bodies.freedoms))}
-    return _checked(LinearModel(M, C1, K0, K2, bicycle.gravity, faults=faults, C0=C0, S0=S0, **names), bicycle.name)
+    model = LinearModel(
+        M,
+        C1,
+        K0,
+        K2,
+        bicycle.gravity,
+        faults=faults,
+        C0=C0,
+        S0=S0,
+        coordinates=(*COORDINATES, *bodies.freedoms),
+        inputs=(*INPUTS, *map(input_name, bodies.freedoms)),
+    )
+    return _checked(model, bicycle.name)
 
 
 def _padded(matrix: Array, more: int) -> Array:
@@ -102,7 +113,7 @@ def _bordered(matrix: Array) -> Array:
 
 def _steer_laws(options: Options, freedoms: int) -> tuple[Array | None, Array | None]:
     """Return C0 and S0 of damper and spring on the steer, None without."""
-    found = []
+    found: list[Array | None] = []
     for values in (options.dampers, options.springs):
         value = values.get(STEER)
         if value is None:

@@ -89,8 +89,9 @@ def slaved_matrices(bodies: SlavedBodies, bicycle: Bicycle) -> Matrices:
 def _relative(
     bodies: SlavedBodies, count: int
 ) -> tuple[list[Array], list[Array], list[Array], dict[tuple[int, int], Array], dict[tuple[int, int], Array]]:
-    """Return, of the motion relative to the frame: moments about x and z, lateral momentum (by freedom), inertia and
-    mass times sinking (by pair of freedoms).
+    """Return what the motion relative to the frame has of its own.
+
+    By freedom: angular momenta about x and z, lateral momentum; by pair of freedoms: inertia, mass times sinking.
     """
     pairs = [(i, j) for i in range(count) for j in range(i, count)]
     if bodies.moving == ():

@@ -19,6 +19,9 @@ if TYPE_CHECKING:
 
 __all__ = ["KINDS", "template"]
 
+#: Optional parameters that most files do without; their lines are comments.
+_SELDOM = ("elbow_drop_angle", "torso_thickness", "torso_width", "handlebar_width", "handlebar_drop")
+
 KINDS = ("bicycle", "rider", "measurements")
 
 _BICYCLE_SKETCH = r"""
@@ -92,7 +95,7 @@ def template(kind: str) -> str:
     Examples
     --------
     >>> print(template("bicycle").splitlines()[-1])
-    stem_length = "? m" # optional, ls: along the steer axis; greater than zero
+    # handlebar_drop = "? m" # optional, hhb: grips below the stem top (negative: above); else none; a finite number
     """
     if kind not in KINDS:
         raise InputError(unknown_name("kind", kind, KINDS))
@@ -128,7 +131,7 @@ def _parameter_lines(descriptions: dict[str, Parameter]) -> Iterator[str]:
             note = "optional, " if p.optional else ""
             if name == "forward_lean_angle":
                 yield f'# On several bicycles, by name: {name} = {{ stratos = "63.9 deg", browser = "82.9 deg" }}'
-            yield f"{name} = {text} # {note}{p.symbol}: {p.meaning}; {ALLOWED[p.allowed][0]}"
+            yield f"{'# ' if name in _SELDOM else ''}{name} = {text} # {note}{p.symbol}: {p.meaning}; {ALLOWED[p.allowed][0]}"
 
 
 def _raw_lines() -> Iterator[str]:

@@ -99,19 +99,23 @@ def slaved_bodies(posture: Posture, bicycle: Bicycle) -> SlavedBodies:
     carries = posture.tree.carries
     rotation, first = motion.first(carries, points)
     second = motion.second(carries, points, rotation, first)
-    moved = [
+    damping, stiffness = _laws(posture, motion)
+    turned, displaced, bent = (
         xp.moveaxis(values.reshape(*values.shape[:3], *motion.shape), (0, 1, 2), (-1, -2, -3))
         for values in (rotation, first, second)
-    ]
+    )
     return SlavedBodies(
         mass,
         centre,
         inertia,
-        *moved,
-        posture.skeleton.faults + motion.faults + _massless(posture, moved[0], moved[1]),
+        turned,
+        displaced,
+        bent,
+        posture.skeleton.faults + motion.faults + _massless(posture, turned, displaced),
         posture.freedoms,
-        *_laws(posture, motion),
-        tuple(np.flatnonzero(carries.any(axis=1)).tolist()),
+        damping=damping,
+        stiffness=stiffness,
+        moving=tuple(np.flatnonzero(carries.any(axis=1)).tolist()),
     )
 
 
@@ -119,9 +123,8 @@ def _massless(posture: Posture, rotation: Array, displacement: Array) -> tuple[F
     """Return a fault for each free joint that neither moves nor turns a segment."""
     if not posture.freedoms or not is_concrete(rotation):
         return ()
-    moves = (abs(np.asarray(rotation)) > _STILL).any(axis=(-1, -2)) | (abs(np.asarray(displacement)) > _STILL).any(
-        axis=(-1, -2)
-    )
+    motions = np.concatenate([np.asarray(rotation), np.asarray(displacement)], axis=-1)
+    moves = np.asarray((abs(motions) > _STILL).any(axis=(-1, -2)))
     text = "posture {posture}: joint {joint} is free and moves no mass: hang a segment on it, or take free away"
     return refuse_single(
         Fault(~moves[..., i], text.format(posture=posture.name, joint=name), {}, PostureError)
@@ -134,7 +137,8 @@ def _laws(posture: Posture, motion: Motion) -> tuple[Array | None, Array | None]
 
     The potential of a joint's spring is k s^2 / 2 - p s, with s = sum U_i d_i + sum U_ij d_i d_j / 2.
     """
-    tree, found = posture.tree, []
+    tree = posture.tree
+    found: list[Array | None] = []
     count = 1 + len(posture.freedoms)
     for law in ("damping", "stiffness"):
         added = None

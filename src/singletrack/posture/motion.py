@@ -2,8 +2,8 @@
 
 Each joint has a twist, the velocity field of what it carries for its unit rate: w x r + v at a point r, with
 (w, v) = (a, p x a) for a hinge about a through p and (0, a) for a slider. A link's twist is the sum of those of the
-joints below it. Along the freedoms d = (steer, free joints), with rates U_i of all joints, twists T_i = sum t_j U_ji are
-first derivatives. A joint is carried by its parent, so that the second derivatives are
+joints below it. Along the freedoms d = (steer, free joints), with rates U_i of all joints, twists T_i = sum t_j U_ji
+are first derivatives. A joint is carried by its parent, so that the second derivatives are
 
     T_ij = sum over joints of  (T_i(parent) x t_j + T_j(parent) x t_i) / 2 + t U_ij
 
@@ -22,11 +22,12 @@ from singletrack.arrays import Array, as_arrays, is_concrete, is_jax, stack
 from singletrack.arrays.faults import Fault, refuse_single
 from singletrack.errors import PostureError
 from singletrack.posture.seated import steer_axis
+from singletrack.posture.tree import Tree
 
 if TYPE_CHECKING:
     from singletrack.parameters import Bicycle
     from singletrack.posture.seated import Posture
-    from singletrack.posture.tree import LoopEnds, Tree
+    from singletrack.posture.tree import LoopEnds
 
 __all__ = ["Motion", "joint_motion", "rider_motion"]
 
@@ -136,7 +137,7 @@ def rider_motion(posture: Posture, bicycle: Bicycle) -> Motion:
     >>> [joint.name for joint in posture.joints][:2]
     ['torso pitch', 'torso twist']
     >>> abs(motion.rates[:2, 0, 0]).round(3).tolist(), bool(abs(motion.bends[0, 0, 0]) > 0.01)
-    ([0.0, 0.6...], True)
+    ([0.0, 0.482], True)
     """
     tree, shape = posture.tree, posture.skeleton.points.shape[:-2]
     foot, axis = steer_axis(bicycle)
@@ -222,13 +223,13 @@ class _Loops:
                 if which.any():
                     parting = parting + sign * motion.second(which, self.points, *motion.first(which, self.points))
             turned = _cross(self.axis[:, None], _cross(self.axis[:, None], self.points - self.foot[:, None]))
-            parting = parting - self._steer_only(motion, turned * self.tree.points.bar[:, None])
+            parting = parting - self._steer_only(turned * self.tree.points.bar[:, None])
             rows.append(parting.reshape(-1, *parting.shape[2:]))
         if self.near is not None:
             rows.append(self._bending_angles(motion))
         return rows[0] if len(rows) == 1 else xp.concat(rows, axis=0)
 
-    def _steer_only(self, motion: Motion, values: Array) -> Array:
+    def _steer_only(self, values: Array) -> Array:
         """Return values (3, k, N) as those of the pair (steer, steer), zero for the others."""
         count = len(self.tree.first)
         return stack([values, *[0.0 * values] * (count - 1)], -2) if count > 1 else values[:, :, None]
@@ -260,7 +261,8 @@ def _solve(xp: Any, posture: Posture, loops: _Loops, spin: Array, twist: Array, 
     tree = posture.tree
     free, dependent = tree.free, tree.dependent
     designs = spin.shape[-1]
-    inverse, faults = None, ()
+    inverse: Array | None = None
+    faults: tuple[Fault, ...] = ()
     if len(dependent):
         matrix = loops.matrix(xp, spin, twist)
         inverse, faults = _inverse(xp.moveaxis(matrix[:, dependent], -1, 0), posture, shape)
@@ -300,7 +302,7 @@ def _apply(xp: Any, inverse: Array, right: Array) -> Array:
 
 
 def _inverse(matrix: Array, posture: Posture, shape: tuple[int, ...]) -> tuple[Array, tuple[Fault, ...]]:
-    """Return the inverses of the loops' matrices (N, rows, joints), NaN where the loops cannot move, and these faults."""
+    """Return the inverses of the loops' matrices (N, rows, joints), NaN where they cannot move, and these faults."""
     xp, (matrix,) = as_arrays(matrix)
     if not is_concrete(matrix):
         return xp.linalg.inv(matrix), ()
@@ -332,8 +334,7 @@ def _singular(posture: Posture, matrices: Array, bad: Array, shape: tuple[int, .
     tree = posture.tree
     left, _, right = np.linalg.svd(matrices[np.flatnonzero(bad)[0]])
     joint = posture.joints[tree.dependent[int(np.argmax(abs(right[-1])))]].name
-    rows = [k for k in tree.points.index for _ in range(3)]
-    rows = [tree.points.index[k % len(tree.points.index)] for k in range(len(rows))] + list(tree.angles.index)
+    rows = [*tree.points.index, *tree.points.index, *tree.points.index, *tree.angles.index]
     loop = posture.loops[rows[int(np.argmax(abs(left[:, -1])))]].name
     text = (
         f"posture {posture.name}: the hands cannot follow the grips when steering, because the loops through the arms "

@@ -10,13 +10,14 @@ from typing import TYPE_CHECKING
 
 from singletrack.arrays import Array, as_arrays, cross, unit_vector, vector
 from singletrack.body import Segment, Skeleton, rider_segments, skeleton
+from singletrack.parameters import Bicycle
 from singletrack.posture.mechanism import FRAME, HANDLEBAR, Direction, Mechanism, Place
 from singletrack.posture.options import Options
 from singletrack.posture.shipped import mechanism_of
 from singletrack.posture.tree import Tree, make_tree
 
 if TYPE_CHECKING:
-    from singletrack.parameters import Bicycle, Rider
+    from singletrack.parameters import Rider
 
 __all__ = ["Joint", "Loop", "Posture", "seat", "steer_axis"]
 

@@ -25,7 +25,7 @@ __all__ = ["TORSO_LEAN", "load_posture", "mechanism_of"]
 TORSO_LEAN = "torso lean"
 _HANDS = "hands"
 #: File of each shipped posture by its options (shoulder, arms); the first is the default.
-_VARIANTS = {
+_VARIANTS: dict[str, dict[tuple[str, str | None], str]] = {
     "upright": {("axial", None): "upright-axial", ("abduction", None): "upright-abduction"},
     "leaned": {
         ("abduction", "straight"): "leaned-straight-abduction",
@@ -156,10 +156,11 @@ def _sprung(mechanism: Mechanism, springs: Mapping[str, Array], dampers: Mapping
                 at = "spring" if what == "stiffness" else "damper"
                 raise InputError(f"posture {mechanism.name}: {unknown_name(f'joint of a {at}', name, known)}")
             if name in joints:
-                joints[name] = replace(joints[name], **{what: value})
+                plan = joints[name]
+                joints[name] = replace(plan, stiffness=value) if what == "stiffness" else replace(plan, damping=value)
             for loop in loops if name == _HANDS else [name] if name in loops else []:
-                soft = {"stiffness": 0.0 if loops[loop].stiffness is None else loops[loop].stiffness} | {what: value}
-                loops[loop] = replace(loops[loop], **soft)
+                soft = replace(loops[loop], stiffness=0.0 if loops[loop].stiffness is None else loops[loop].stiffness)
+                loops[loop] = replace(soft, stiffness=value) if what == "stiffness" else replace(soft, damping=value)
     softened = tuple(loops.get(loop.name, loop) for loop in mechanism.loops)
     return replace(mechanism, joints=_freed(tuple(joints.values()), mechanism.loops, softened), loops=softened)
 

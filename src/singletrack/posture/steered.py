@@ -49,7 +49,6 @@ def steered_skeleton(posture: Posture, bicycle: Bicycle, steer: Array) -> Array:
     >>> steered_skeleton(seat(bicycle, load_rider("rider-a"), "upright"), bicycle, np.array(0.1)).shape
     (31, 3)
     """
-    points = posture.skeleton.points
     foot, axis = steer_axis(bicycle)
     _, (angle,) = as_arrays(steer)
     carried = posture.carried_by or {}

@@ -122,7 +122,7 @@ def _check_counts(name: str, dependent: list[str], touched: np.ndarray, loops: l
     loose = [joint for joint, loop in zip(dependent, touched, strict=True) if not loop]
     if loose:
         raise PostureError(
-            f"posture {name}: joint {', '.join(loose)}: no loop determines it, and it is not declared free (free = true)"
+            f"posture {name}: joint {', '.join(loose)}: no loop determines it, and it is not declared free"
         )
     conditions = sum(3 if point else 1 for _, point in loops)
     held = ", ".join(loop for loop, _ in loops)
