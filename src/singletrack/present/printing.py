@@ -15,7 +15,7 @@ from singletrack.present.records import derived, parameter_rows, uncertain_resul
 from singletrack.present.terminal import Words
 
 if TYPE_CHECKING:
-    from singletrack.measuring.pendulums import Measurement
+    from singletrack.measuring.measurement import Measurement
     from singletrack.parameters import Bicycle, Rider
     from singletrack.present.terminal import Terminal
 
