@@ -18,6 +18,7 @@ from singletrack.errors import InputError
 from singletrack.mechanics import Body as Solid
 from singletrack.mechanics import combine
 from singletrack.multibody.bicycle.balance import holding_inputs
+from singletrack.multibody.bicycle.limits import riding_limits
 from singletrack.multibody.bicycle.parametrise import Numbers
 from singletrack.multibody.bicycle.rider import frame_segments, preload_name, rider_elements
 from singletrack.multibody.engine.assembly import assemble, move
@@ -168,10 +169,12 @@ def bicycle_model(bicycle: Bicycle, rider: Rider | None = None, options: Options
     numbers = Numbers()
     elements = _elements(bicycle, seated, options, numbers)
     freedoms = () if seated is None else seated.freedoms
+    independent = ("lean", "steer", *freedoms, "rear wheel")
     system = System(
         **elements,
         gravity=float(bicycle.gravity),
-        independent=("lean", "steer", *freedoms, "rear wheel"),
+        independent=independent,
+        limits=riding_limits(elements["joints"], elements["closures"], independent),
         parameters=numbers.values,
     )
     key = (numbers.key(), system.coordinates)
