@@ -10,7 +10,7 @@ from typing import Any
 
 from singletrack.body import POINT_NAMES
 from singletrack.errors import InputError, unknown_name
-from singletrack.files.source import place_of
+from singletrack.files.toml_keys import place_of
 from singletrack.parameters.units import parse_quantity
 from singletrack.posture.mechanism import FRAME, HANDLEBAR, Direction, JointPlan, LoopPlan, Mechanism, Place
 
