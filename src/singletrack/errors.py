@@ -12,7 +12,16 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Sequence
 
-__all__ = ["InputError", "ModelError", "PostureError", "SingletrackError", "nearest", "unknown", "unknown_name"]
+__all__ = [
+    "InputError",
+    "ModelError",
+    "OddityWarning",
+    "PostureError",
+    "SingletrackError",
+    "nearest",
+    "unknown",
+    "unknown_name",
+]
 
 
 class SingletrackError(ValueError):
@@ -140,6 +149,38 @@ class PostureError(SingletrackError):
 
 class ModelError(SingletrackError):
     """A multibody system that is not well defined; names the element."""
+
+
+class OddityWarning(UserWarning):
+    """Something allowed that is seldom meant, such as a trail of 60 m; said once for each record.
+
+    Attributes
+    ----------
+    name, parameter : str
+        Of the bicycle or rider ("" if it has none), and of the parameter.
+    found : float
+        What was found, in SI units.
+    expected : str
+        What is usual, in words.
+
+    Examples
+    --------
+    >>> str(OddityWarning("trail = 60 m is odd", name="mine", parameter="trail", found=60.0))
+    'mine: trail = 60 m is odd'
+    """
+
+    def __init__(
+        self, reason: str = "", *, name: str = "", parameter: str = "", found: Any = None, expected: str = ""
+    ) -> None:
+        super().__init__(reason)
+        self.reason = reason
+        self.name = name
+        self.parameter = parameter
+        self.found = found
+        self.expected = expected
+
+    def __str__(self) -> str:
+        return f"{self.name}: {self.reason}" if self.name else self.reason
 
 
 _MOST_LISTED = 12

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import inf
 from typing import TYPE_CHECKING, ClassVar
 
 from singletrack.arrays import Array, is_concrete
@@ -109,37 +110,33 @@ FRAME_GEOMETRY = tuple(name for name, p in Bicycle.descriptions().items() if p.g
 
 def _inertia_faults(body: str, axes: tuple[str, ...], xx: Array, yy: Array, zz: Array, xz: Array) -> Iterator[Fault]:
     """Yield faults of an inertia tensor that is symmetric about the x-z plane: what no distribution of mass has."""
-    import numpy as np
-
-    entries = (xx, yy, zz, xz)
-    if not all(is_concrete(value) and np.asarray(value).dtype.kind in "iufc" for value in entries):
+    entries: tuple[Array, ...] = (xx, yy, zz, xz)
+    if not all(is_concrete(value) for value in entries):
         return
-    xx, yy, zz, xz = (np.real(np.asarray(value)) for value in entries)
-    finite = np.isfinite(xx) & np.isfinite(yy) & np.isfinite(zz) & np.isfinite(xz)
-    xx, yy, zz, xz = (np.where(finite, value, 1.0) for value in (xx, yy, zz, xz))
-    mean, half = (xx + zz) / 2, np.hypot((xx - zz) / 2, xz)
+    if not all(type(value) is float for value in entries):
+        import numpy as np  # lazy: records of numbers alone can be made without NumPy
+
+        entries = tuple(np.real(np.asarray(value)) for value in entries)
+    xx, yy, zz, xz = entries
+    # Only operators from here, which work on floats and arrays alike; comparisons with NaN are false, and products,
+    # unlike powers of floats, overflow to infinity.
+    mean, lopsided = (xx + zz) / 2, (xx - zz) / 2
+    half = (lopsided * lopsided + xz * xz) ** 0.5
     smallest, largest = mean - half, mean + half
-    found = {"xx": xx, "yy": yy, "zz": zz, "xz": xz, "small": smallest, "large": largest}
-    parameters = tuple(f"{body}_inertia_{axis}" for axis in axes)
-    found |= dict(zip(parameters, (xx, yy, zz, xz), strict=False))
-    tensor = f"{body}_inertia (xx {{xx:.6g}}, yy {{yy:.6g}}, zz {{zz:.6g}}, xz {{xz:.6g}}) kg*m**2 is no body's: "
-    usable = finite & (yy > 0) & (xx > 0) & (zz > 0)
-    yield Fault(
-        usable & (smallest <= 0),
-        tensor + "the moment about a principal axis in the x-z plane is {small:.6g}, must be greater than zero",
-        found,
-        InputError,
-        parameters,
-        "the inertia of a body",
-    )
-    positive = usable & (smallest > 0)
+    usable = (xx > 0) & (yy > 0) & (zz > 0) & (xx < inf) & (yy < inf) & (zz < inf)
     slack = 1 + FLATNESS_TOLERANCE
-    yield Fault(
-        positive & ((yy > slack * (smallest + largest)) | (largest > slack * (yy + smallest))),
-        tensor + "no principal moment ({small:.6g}, {yy:.6g}, {large:.6g}) may exceed the sum of the other two "
-        f"by more than {FLATNESS_TOLERANCE:.0%} (room for measurement errors of flat bodies)",
-        found,
-        InputError,
-        parameters,
-        "the inertia of a body",
+    hollow = usable & (smallest <= 0)
+    flat = usable & (smallest > 0) & ((yy > slack * (smallest + largest)) | (largest > slack * (yy + smallest)))
+    if hollow is False and flat is False:
+        return
+    parameters = tuple(f"{body}_inertia_{axis}" for axis in axes)
+    found = {"xx": xx, "yy": yy, "zz": zz, "xz": xz, "small": smallest, "large": largest}
+    found |= dict(zip(parameters, entries, strict=False))
+    tensor = f"{body}_inertia (xx {{xx:.6g}}, yy {{yy:.6g}}, zz {{zz:.6g}}, xz {{xz:.6g}}) kg*m**2 is no body's: "
+    principal = "the moment about a principal axis in the x-z plane is {small:.6g}, must be greater than zero"
+    triangle = (
+        "no principal moment ({small:.6g}, {yy:.6g}, {large:.6g}) may exceed the sum of the other two "
+        f"by more than {FLATNESS_TOLERANCE:.0%} (room for measurement errors of flat bodies)"
     )
+    yield Fault(hollow, tensor + principal, found, InputError, parameters, "the inertia of a body")
+    yield Fault(flat, tensor + triangle, found, InputError, parameters, "the inertia of a body")

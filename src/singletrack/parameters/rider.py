@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from math import pi
+from math import inf, pi
 from typing import TYPE_CHECKING, ClassVar
 
 from singletrack.arrays import Array, is_concrete
@@ -66,7 +66,7 @@ class Rider(Record):
     upper_leg_length: Array = parameter("m", "lul", "hip to knee", group=_BODY)
 
     rider_mass: Array = parameter("kg", "mBr", "whole rider", group=_MASS)
-    head_mass_fraction: Array = parameter("", "mh/mBr", "head", "fraction", group=_MASS)
+    head_mass_fraction: Array = parameter("", "mh/mBr", "head", "fraction", group=_MASS, most=0.5)
     lower_arm_mass_fraction: Array = parameter("", "mla/mBr", "one lower arm", "fraction", group=_MASS)
     lower_leg_mass_fraction: Array = parameter("", "mll/mBr", "one lower leg", "fraction", group=_MASS)
     torso_mass_fraction: Array = parameter("", "mto/mBr", "torso", "fraction", group=_MASS)
@@ -113,17 +113,23 @@ class Rider(Record):
         return (self.chest_circumference - 2 * self.torso_width) / (pi - 2)
 
     def _physical_faults(self) -> Iterator[Fault]:
-        import numpy as np
-
         inputs = tuple(getattr(self, name) for name in _TORSO)
-        if not all(is_concrete(value) and np.asarray(value).dtype.kind in "iufc" for value in inputs):
+        if not all(is_concrete(value) for value in inputs):
             return
-        width, thickness = np.real(self.torso_width), np.real(self.torso_thickness)
-        finite = np.isfinite(width) & np.isfinite(thickness)
-        found = {"width": width, "twice": 2 * width}
-        found |= dict(zip(_TORSO, (np.asarray(value) for value in inputs), strict=True))
+        if not all(type(value) is float for value in inputs):
+            import numpy as np  # lazy: records of numbers alone can be made without NumPy
+
+            inputs = tuple(np.real(np.asarray(value)) for value in inputs)
+        shoulders, arm, chest = inputs
+        # Only operators from here, which work on floats and arrays alike; comparisons with NaN are false.
+        width = shoulders - arm / pi
+        usable = (width > -inf) & (width < inf) & (chest > -inf) & (chest < inf)
+        narrow, tight = usable & (width <= 0), usable & (width > 0) & (chest <= 2 * width)
+        if narrow is False and tight is False:
+            return
+        found = {"width": width, "twice": 2 * width} | dict(zip(_TORSO, inputs, strict=True))
         yield Fault(
-            finite & (width <= 0),
+            narrow,
             "shoulder_to_shoulder = {shoulder_to_shoulder:.6g} m leaves no torso between upper arms of "
             "upper_arm_circumference = {upper_arm_circumference:.6g} m, must be more than upper_arm_circumference / pi",
             found,
@@ -132,7 +138,7 @@ class Rider(Record):
             "more than upper_arm_circumference / pi",
         )
         yield Fault(
-            finite & (width > 0) & (thickness <= 0),
+            tight,
             "chest_circumference = {chest_circumference:.6g} m does not go around a torso {width:.6g} m wide "
             "(shoulder_to_shoulder - upper_arm_circumference / pi), must be more than {twice:.6g} m",
             found,
