@@ -152,12 +152,12 @@ class ModelError(SingletrackError):
 
 
 class OddityWarning(UserWarning):
-    """Something allowed that is seldom meant, such as a trail of 60 m; said once for each record.
+    """Something allowed that looks odd: a value that is seldom meant (a trail of 60 m), an option without effect.
 
     Attributes
     ----------
     name, parameter : str
-        Of the bicycle or rider ("" if it has none), and of the parameter.
+        Of the bicycle or rider and of the parameter, "" where there is none.
     found : float
         What was found, in SI units.
     expected : str

@@ -34,7 +34,7 @@ def shipped(kind: str) -> dict[str, Traversable]:
     Examples
     --------
     >>> list(shipped("bicycle"))
-    ['benchmark', 'browser', 'stratos']
+    ['benchmark', 'browser', 'kooijman-2008', 'stratos']
     """
     folder = resources.files("singletrack") / "data" / f"{kind}s"
     files = sorted((file for file in folder.iterdir() if file.name.endswith(".toml")), key=lambda file: file.name)
@@ -47,8 +47,8 @@ def load_bicycle(name_or_path: str | Path) -> Bicycle:
     Parameters
     ----------
     name_or_path : str or path
-        A shipped name (``benchmark``, ``stratos``, ``browser``) or a file: TOML, a parameter text file or raw
-        measurements of BicycleParameters, one of its YAML parameter sets.
+        A shipped name (``benchmark``, ``stratos``, ``browser``, ``kooijman-2008``) or a file: TOML, a parameter text
+        file or raw measurements of BicycleParameters, one of its YAML parameter sets.
 
     Raises
     ------

@@ -25,6 +25,7 @@ ALLOWED: dict[str, tuple[str, Callable[[Any], Any]]] = {
     "positive": ("greater than zero", lambda x: x > 0),
     "not negative": ("zero or more", lambda x: x >= 0),
     "angle": ("between 0 and 90 deg (a bare number is in radians)", lambda x: (x > 0) & (x < pi / 2)),
+    "tilt": ("between -90 and 90 deg (a bare number is in radians)", lambda x: abs(x) < pi / 2),
     "above ground": ("less than zero (z points down, the ground is at zero)", lambda x: x < 0),
     "fraction": ("greater than 0 and less than 1", lambda x: (x > 0) & (x < 1)),
 }
@@ -114,13 +115,24 @@ def faults_of_value(name: str, value: Array, description: Parameter) -> Iterator
     allowed = finite & test(np.where(finite, real, 1.0))
     unit = f" {description.unit}" if description.unit else ""
     found = f"{name} = {{found:.6g}}{unit}"
-    if description.allowed == "angle":
+    values = {"found": array}
+    if description.unit == "rad":
         found += " ({degrees:.6g} deg)"
-    values = {"found": array, "degrees": np.degrees(real)}
+        with np.errstate(over="ignore"):
+            values["degrees"] = np.degrees(real)
     yield Fault(~allowed, f"{found}, must be {words}", values, InputError, (name,), words)
     beyond = allowed & (((size < least) & (real != 0)) | (size > most))
     if beyond.any():
         words = f"at most {most:g}{unit}" if not least else f"between {least:g} and {most:g}{unit}"
         small = _SMALL_UNITS.get(description.unit)
-        hint = f' (is it in {small}? Say "{{found:.6g}} {small}")' if small and (size[beyond] > most).all() else ""
+        hint = (
+            f' (is it in {small}? Say "{{found:.6g}} {small}")'
+            if small and _is_thousandfold(size[beyond], most)
+            else ""
+        )
         yield Fault(beyond, f"{found}, must be {words}{hint}", values, InputError, (name,), words)
+
+
+def _is_thousandfold(sizes: Array, most: float) -> bool:
+    """Tell whether sizes are too large, and would not be in a unit a thousandth of ours."""
+    return bool(((sizes > most) & (sizes <= 1000 * most)).all())

@@ -122,7 +122,7 @@ def oddities(record: Record, rider: Rider | None = None) -> tuple[Oddity, ...]:
 def _ranges(record: Record) -> Iterator[Oddity]:
     for name, (low, high) in USUAL.items():
         value = getattr(record, name, None)
-        if value is None or low <= value <= high:
+        if value is None or low <= value <= high or (value == 0 and "wheel" in name):  # a skate has no wheels
             continue
         unit = record.descriptions()[name].unit.replace("**", "^")
         expected = f"{low:g} to {high:g} {unit}".rstrip()
@@ -141,7 +141,10 @@ def _angles(record: Record) -> Iterator[Oddity]:
         if value is None:
             continue
         degrees = math.degrees(value)
-        if 0 <= value < _SMALLEST_ANGLE:
+        if value < 0:
+            text = f"{name} = {degrees:g} deg is negative: the steer axis leans forward, top ahead"
+            yield Oddity(name, text, float(value), "0 to 45 deg")
+        elif 0 < value < _SMALLEST_ANGLE:
             text = f"{name} = {degrees:g} deg is hardly an angle: {degrees:g} radians ({math.degrees(degrees):.3g} deg)"
             yield Oddity(name, f"{text} written as degrees?", float(value), "more than 2 deg")
         elif name == "steer_axis_tilt" and value > _LARGEST_TILT:

@@ -7,11 +7,12 @@ from dataclasses import dataclass, field
 from math import inf, pi
 from typing import TYPE_CHECKING, ClassVar
 
-from singletrack.arrays import Array, is_concrete
+from singletrack.arrays import Array
 from singletrack.arrays.faults import Fault
 from singletrack.errors import InputError
 from singletrack.parameters.record import Record, parameter
 from singletrack.parameters.shapes import SegmentShape
+from singletrack.parameters.values import real_numbers
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -113,13 +114,9 @@ class Rider(Record):
         return (self.chest_circumference - 2 * self.torso_width) / (pi - 2)
 
     def _physical_faults(self) -> Iterator[Fault]:
-        inputs = tuple(getattr(self, name) for name in _TORSO)
-        if not all(is_concrete(value) for value in inputs):
+        inputs = real_numbers(*(getattr(self, name) for name in _TORSO))
+        if inputs is None:
             return
-        if not all(type(value) is float for value in inputs):
-            import numpy as np  # lazy: records of numbers alone can be made without NumPy
-
-            inputs = tuple(np.real(np.asarray(value)) for value in inputs)
         shoulders, arm, chest = inputs
         # Only operators from here, which work on floats and arrays alike; comparisons with NaN are false.
         width = shoulders - arm / pi

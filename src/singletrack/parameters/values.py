@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from singletrack.arrays import Array, complex_allowed, is_jax
+from singletrack.arrays import Array, complex_allowed, is_concrete, is_jax
 from singletrack.errors import InputError
 
 if TYPE_CHECKING:
     import numpy as np
 
-__all__ = ["FrozenDict", "as_parameter"]
+__all__ = ["FrozenDict", "as_parameter", "real_numbers"]
 
 
 class FrozenDict(dict[str, Any]):
@@ -66,6 +66,23 @@ def as_parameter(value: Any) -> Array:
         _refuse_kind(value, value.dtype.kind)
         return value
     return _as_array(value)
+
+
+def real_numbers(*values: Array) -> tuple[Array, ...] | None:
+    """Return the real parts of parameters: floats as they are, else NumPy arrays.
+
+    None if one of them is missing, or hidden by JAX.
+
+    >>> real_numbers(1.0, 2.0)
+    (1.0, 2.0)
+    """
+    if all(type(value) is float for value in values):
+        return values
+    if not all(value is not None and is_concrete(value) for value in values):
+        return None
+    import numpy as np
+
+    return tuple(np.real(np.asarray(value)) for value in values)
 
 
 def _as_array(value: Any) -> float | np.ndarray:
