@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib
 import warnings
 from dataclasses import dataclass
 from enum import StrEnum
@@ -9,7 +10,6 @@ from typing import Annotated
 
 import typer
 
-from singletrack import closed_form, multibody
 from singletrack.body.oddities import warn_of_oddities
 from singletrack.errors import InputError, OddityWarning, unknown_name
 from singletrack.library import load_bicycle, load_rider
@@ -23,7 +23,7 @@ __all__ = ["Made", "ModelOptions", "model_from", "seated"]
 
 
 class EngineName(StrEnum):
-    """The two independent derivations."""
+    """The two independent derivations, by the names of their rooms."""
 
     closed_form = "closed-form"
     multibody = "multibody"
@@ -84,8 +84,8 @@ def model_from(bicycle: str, options: ModelOptions) -> Made:
         If there is no such thing, or a value is not allowed.
     """
     record, rider, changed = seated(load_bicycle(bicycle), options)
-    derive = multibody.coefficients if options.engine is EngineName.multibody else closed_form.coefficients
-    model = CoefficientMatrices.of(derive(record, rider, options.sitting))
+    maker = importlib.import_module(f"singletrack.{options.engine.name}")  # a door: the engine's libraries are heavy
+    model = CoefficientMatrices.of(maker.coefficients(record, rider, options.sitting))
     rider = None if rider is None else rider.on(record)
     warn_of_oddities(record, rider)
     who = "" if rider is None else f" with {rider.name or 'rider'}, {options.posture}"
