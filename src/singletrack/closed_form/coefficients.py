@@ -5,6 +5,8 @@ from __future__ import annotations
 import dataclasses
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from singletrack.arrays import is_concrete, refuse_single, require_double
 from singletrack.closed_form.slaved import slaved_matrices
 from singletrack.closed_form.whipple import whipple_matrices
@@ -18,6 +20,7 @@ if TYPE_CHECKING:
 __all__ = ["coefficients"]
 
 
+@np.errstate(all="ignore")  # sound designs overflow nowhere; faulty ones of a batch are flagged, and NaN
 def coefficients(bicycle: Bicycle, rider: Rider | None = None, options: Options | str = "rigid") -> LinearModel:
     """Return the coefficient matrices of the linearised equations of motion.
 

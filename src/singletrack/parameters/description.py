@@ -35,7 +35,7 @@ ALLOWED: dict[str, tuple[str, Callable[[Any], Any]]] = {
 BOUNDS: dict[str, tuple[float, float]] = {
     "m": (1e-6, 100.0),
     "kg": (1e-6, 1000.0),
-    "kg*m**2": (1e-12, 1e5),
+    "kg*m**2": (0.0, 1e5),
     "m/s**2": (1e-6, 1000.0),
 }
 _SMALL_UNITS = {"m": "mm", "kg": "g"}
@@ -73,9 +73,10 @@ class Parameter:
 
     @property
     def bounds(self) -> tuple[float, float]:
-        """Least and largest size of a value other than zero; the least only where values have one sign."""
+        """Least and largest size of a value other than zero; the least only of lengths and masses that must be."""
         least, most = BOUNDS.get(self.unit, (0.0, inf))
-        return (least if self.allowed in {"positive", "not negative"} else 0.0), min(most, self.most)
+        divides = self.allowed == "positive" or (self.allowed == "not negative" and self.unit == "m")
+        return (least if divides else 0.0), min(most, self.most)
 
 
 def parameter(
