@@ -37,7 +37,7 @@ def test_every_command_that_makes_a_model_has_the_same_options(command, run):
         assert name in printed
 
 
-@pytest.mark.parametrize("command", MODEL_COMMANDS[:3])
+@pytest.mark.parametrize("command", MODEL_COMMANDS)
 def test_headings_list_what_was_changed(command, run):
     code, printed, _ = run(command, "stratos", "--set", "trail=60 mm", "--set", "gravity=9.8")
     assert code == 0
@@ -55,17 +55,17 @@ def test_a_name_that_is_set_twice_is_refused_by_name(command, run):
 def test_what_is_set_without_effect_is_said(command, run):
     code, _, err = run(command, "stratos", "--set", "stem_length=0.3")
     assert code == 0
-    assert err.startswith("singletrack: warning: --set stem_length: changes nothing without a --rider")
+    assert err.startswith("singletrack: warning: --set stem_length: changes no equation without a --rider")
     code, _, err = run(command, "stratos", "--set", "stem_length=0.3", "--rider", "rider-a")
     assert (code, err) == (0, "")
 
 
 @pytest.mark.parametrize("command", MODEL_COMMANDS)
 def test_what_looks_odd_is_said_by_every_command_that_computes(command, run):
-    code, out, err = run(command, "stratos", "--set", "wheel_base=103.7")
+    code, out, err = run(command, "stratos", "--set", "wheel_base=13.7")
     assert code == 0
     assert err.count("\n") == 1
-    assert "singletrack: warning: wheel_base = 103.7 m is outside what is usual" in err
+    assert "singletrack: warning: stratos: wheel_base = 13.7 m is outside what is usual" in err
     assert "warning" not in out
 
 
@@ -80,8 +80,18 @@ def test_files_that_look_odd_are_said_by_the_file_commands(run, tmp_path):
     odd.write_text(odd.read_text(encoding="utf-8").replace('"0.0563 m"', '"-0.05 m"'), encoding="utf-8")
     code, _, err = run("convert", str(odd), str(copy))
     assert code == 0
-    assert "singletrack: warning: trail = -0.05 m is negative" in err
-    assert "singletrack: warning: trail = -0.05 m is negative" in run("show", str(odd))[2]
+    assert "singletrack: warning: stratos: trail = -0.05 m is negative" in err
+    assert "singletrack: warning: stratos: trail = -0.05 m is negative" in run("show", str(odd))[2]
+
+
+def test_show_says_the_same_as_the_commands_for_one_thing_each(run):
+    """One formatter: critical speeds and ranges, open ones too, read alike everywhere."""
+    for change in ("trail=0.2", "trail=0.0563"):
+        _, shown, _ = run("show", "stratos", "--set", change)
+        _, alone, _ = run("critical-speeds", "stratos", "--set", change)
+        for line in alone.splitlines()[1:]:
+            assert line in shown
+        assert "inf" not in shown
 
 
 def test_the_door_returns_what_the_command_raises(monkeypatch):

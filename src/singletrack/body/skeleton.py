@@ -13,7 +13,7 @@ from singletrack.errors import InputError, PostureError
 if TYPE_CHECKING:
     from singletrack.parameters import Bicycle, Rider
 
-__all__ = ["POINT_NAMES", "Skeleton", "frame_points", "skeleton"]
+__all__ = ["POINT_NAMES", "Skeleton", "frame_faults", "frame_points", "skeleton"]
 
 #: What the points 1 to 31 are. Right is positive y; the table's own comment calls points 21 and 23 left.
 POINT_NAMES = (
@@ -169,7 +169,7 @@ def _rider_points(frame: dict[int, Array], bicycle: Bicycle, rider: Rider) -> tu
     p[26], p[27] = bracket + right_hip, bracket + left_hip
     p[28], p[29] = p[14] + right_hip, p[14] + left_hip
     p[30], p[31] = hip + right_hip, hip + left_hip
-    return p, [fault for fault in (*_frame_faults(frame, bicycle), *leg, *arm) if is_concrete(fault.bad)]
+    return p, [fault for fault in (*frame_faults(frame, bicycle), *leg, *arm) if is_concrete(fault.bad)]
 
 
 def _two_link_joint(
@@ -200,8 +200,15 @@ _LIMBS = {
 }
 
 
-def _frame_faults(frame: dict[int, Array], bicycle: Bicycle) -> list[Fault]:
-    """Return faults of frame geometry: tubes too short to span their distance."""
+def frame_faults(frame: dict[int, Array], bicycle: Bicycle) -> list[Fault]:
+    """Return faults of frame geometry: tubes too short to span their distance.
+
+    Parameters
+    ----------
+    frame : dict of int to array, shape (..., 3)
+        As :func:`frame_points` makes them.
+    bicycle : Bicycle
+    """
     xp = namespace(frame[5], frame[11])
     drop = bicycle.rear_wheel_radius - bicycle.bottom_bracket_height
     return [

@@ -116,7 +116,7 @@ def seated(bicycle: Bicycle, options: ModelOptions) -> tuple[Bicycle, Rider | No
         if name not in own and name not in theirs:
             raise InputError(f"--set: {unknown_name('parameter', name, [*own, *(theirs if rider else [])])}")
         if rider is None and name in FRAME_GEOMETRY:
-            _warn(f"--set {name}: changes nothing without a --rider (frame geometry says where a rider sits)")
+            _warn(f"--set {name}: changes no equation without a --rider (frame geometry says where a rider sits)")
     bicycle = override(bicycle, {name: text for name, text in changes.items() if name in own})
     if rider is not None:
         rider = override(rider, {name: text for name, text in changes.items() if name not in own})

@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 from singletrack.arrays import Array, is_concrete
 from singletrack.arrays.faults import Fault, refuse_single
-from singletrack.errors import InputError, SingletrackError, unknown
+from singletrack.errors import InputError, SingletrackError
 from singletrack.parameters.description import ALLOWED, Parameter, faults_of_value, parameter
+from singletrack.parameters.hints import unknown_parameter
 from singletrack.parameters.values import FrozenDict, as_parameter
 
 if TYPE_CHECKING:
@@ -84,7 +85,7 @@ class Record:
         known = [f.name for f in dataclasses.fields(cls)]
         for name in names:
             if name not in known and name not in also:
-                raise unknown(f"{cls.kind} parameter", name, cls.descriptions())
+                raise unknown_parameter(cls.kind, name, cls.descriptions())
 
     def faults(self) -> tuple[Fault, ...]:
         """Return what is wrong with the values, with a mask over the batch each; sound numbers have no faults."""

@@ -14,8 +14,9 @@ import numpy as np
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from singletrack.errors import InputError, unknown_name
-from singletrack.files.source import place_of, read_text
+from singletrack.files.source import read_text
 from singletrack.files.speeds import parse_speeds
+from singletrack.files.toml_keys import place_of
 from singletrack.library import load_bicycle, load_rider, shipped
 from singletrack.parameters import Bicycle, Rider
 from singletrack.posture import Options

@@ -16,6 +16,7 @@ import numpy as np
 from singletrack.errors import InputError
 from singletrack.mechanics import Body as Solid
 from singletrack.mechanics import combine
+from singletrack.multibody.bicycle.limits import riding_limits
 from singletrack.multibody.bicycle.parametrise import Numbers
 from singletrack.multibody.bicycle.rider import frame_segments, rider_elements
 from singletrack.multibody.engine.assembly import assemble, move
@@ -159,6 +160,7 @@ def bicycle_model(bicycle: Bicycle, rider: Rider | None = None, options: Options
         **elements,
         gravity=float(bicycle.gravity),
         independent=("lean", "steer", "rear wheel"),
+        limits=riding_limits(elements["joints"], elements["closures"], ("lean", "steer", "rear wheel")),
         parameters=numbers.values,
     )
     key = (numbers.key(), system.coordinates)
