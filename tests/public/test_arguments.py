@@ -25,10 +25,10 @@ STRATOS, RIDER = load_bicycle("stratos"), load_rider("rider-a")
         ((Bicycle,), "is the class"),
         (({"wheel_base": 1.0},), r"bicycle is a dict, must be a Bicycle; type Bicycle\(\*\*bicycle\)"),
         ((None,), "bicycle is a NoneType"),
-        ((STRATOS, RIDER, 5), "unknown posture '5'"),
-        ((STRATOS, RIDER, ["upright"]), "unknown posture"),
+        ((STRATOS, RIDER, 5), "posture is a int, must be one of rigid, leaned, upright"),
+        ((STRATOS, RIDER, ["upright"]), "posture is a list"),
         ((STRATOS, RIDER, "upright", "abducted"), "unknown shoulder 'abducted'"),
-        ((STRATOS, RIDER, RIDER), "unknown posture"),
+        ((STRATOS, RIDER, RIDER), "posture is a Rider"),
     ],
     ids=str,
 )

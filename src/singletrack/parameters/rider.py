@@ -53,6 +53,9 @@ class Rider(Record):
     forward_lean_angle: Array = parameter(
         "rad", "λfl", "torso from the horizontal, on this bicycle", "angle", group=_BODY, optional=True
     )
+    elbow_drop_angle: Array = parameter(
+        "rad", "λed", "elbows turned out less far than hanging down (90 deg)", "angle", group=_BODY, optional=True
+    )
     head_circumference: Array = parameter("m", "ch", "around the head", group=_BODY)
     hip_joint_to_hip_joint: Array = parameter("m", "lhh", "between the hip joints", group=_BODY)
     lower_arm_circumference: Array = parameter("m", "cla", "around the lower arm", group=_BODY)
@@ -61,6 +64,12 @@ class Rider(Record):
     lower_leg_length: Array = parameter("m", "lll", "knee to pedal", group=_BODY)
     shoulder_to_shoulder: Array = parameter("m", "lss", "between the shoulder joints", group=_BODY)
     torso_length: Array = parameter("m", "lto", "hip joints to shoulder joints", group=_BODY)
+    torso_thickness: Array = parameter(
+        "m", "tto", "front to back; else from the chest's circumference", group=_BODY, optional=True
+    )
+    torso_width: Array = parameter(
+        "m", "wto", "side to side; else between the insides of the upper arms", group=_BODY, optional=True
+    )
     upper_arm_circumference: Array = parameter("m", "cua", "around the upper arm", group=_BODY)
     upper_arm_length: Array = parameter("m", "lua", "shoulder to elbow", group=_BODY)
     upper_leg_circumference: Array = parameter("m", "cul", "around the upper leg", group=_BODY)
@@ -104,24 +113,32 @@ class Rider(Record):
         return self.replace(forward_lean_angle=angle, standard_deviations=deviations)
 
     @property
-    def torso_width(self) -> Array:
-        """Width of the torso, along y, in m: between the insides of the upper arms."""
-        return self.shoulder_to_shoulder - self.upper_arm_circumference / pi
+    def torso_section(self) -> tuple[Array, Array]:
+        """Width (along y) and thickness of the torso in m.
 
-    @property
-    def torso_thickness(self) -> Array:
-        """Thickness of the torso in m: a stadium of this thickness and the torso's width has the chest's girth."""
-        return (self.chest_circumference - 2 * self.torso_width) / (pi - 2)
+        As given; else the width is that between the insides of the upper arms, and a stadium of that width and the
+        thickness has the chest's circumference (a given width leaves the thickness as derived).
+        """
+        width = self.shoulder_to_shoulder - self.upper_arm_circumference / pi
+        thickness = (self.chest_circumference - 2 * width) / (pi - 2)
+        return (
+            width if self.torso_width is None else self.torso_width,
+            thickness if self.torso_thickness is None else self.torso_thickness,
+        )
 
     def _physical_faults(self) -> Iterator[Fault]:
         inputs = real_numbers(*(getattr(self, name) for name in _TORSO))
         if inputs is None:
+            return
+        if self.torso_width is not None and self.torso_thickness is not None:
             return
         shoulders, arm, chest = inputs
         # Only operators from here, which work on floats and arrays alike; comparisons with NaN are false.
         width = shoulders - arm / pi
         usable = (width > -inf) & (width < inf) & (chest > -inf) & (chest < inf)
         narrow, tight = usable & (width <= 0), usable & (width > 0) & (chest <= 2 * width)
+        if self.torso_thickness is not None:
+            tight &= False
         if narrow is False and tight is False:
             return
         found = {"width": width, "twice": 2 * width} | dict(zip(_TORSO, inputs, strict=True))

@@ -7,9 +7,9 @@ from typing import Any
 
 from singletrack.errors import InputError
 from singletrack.parameters import Bicycle, Rider
-from singletrack.posture import POSTURES
+from singletrack.posture import POSTURES, Mechanism
 
-__all__ = ["require_bicycle", "require_records"]
+__all__ = ["require_bicycle", "require_posture", "require_records"]
 
 
 def require_records(bicycle: object, rider: object = None) -> None:
@@ -42,6 +42,20 @@ def require_bicycle(bicycle: object) -> None:
     """
     if not isinstance(bicycle, Bicycle):
         raise _refusal("bicycle", bicycle, Bicycle, "a Bicycle")
+
+
+def require_posture(posture: object) -> None:
+    """Raise InputError unless this can be a posture: a name, a file or a mechanism.
+
+    >>> require_posture(5)
+    Traceback (most recent call last):
+    ...
+    singletrack.errors.InputError: posture is a int, must be one of rigid, leaned, upright, a file or a Mechanism
+    """
+    if not isinstance(posture, str | PurePath | Mechanism):
+        allowed = f"one of {', '.join(POSTURES)}, a file or a Mechanism"
+        reason = f"posture is a {type(posture).__name__}, must be {allowed}"
+        raise InputError(reason, parameters=("posture",), found=posture, allowed=allowed)
 
 
 def _refusal(name: str, found: Any, wanted: type[Bicycle | Rider], allowed: str) -> InputError:

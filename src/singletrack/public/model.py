@@ -9,14 +9,16 @@ from singletrack import closed_form
 from singletrack.body.oddities import warn_of_oddities
 from singletrack.linear import CriticalSpeeds, Modes, StateSpace, critical_speeds, eigenvalues, modes, state_space
 from singletrack.model import LinearModel
-from singletrack.posture import Options
-from singletrack.public.arguments import require_records
+from singletrack.posture import Options, named_posture
+from singletrack.public.arguments import require_posture, require_records
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
+    from pathlib import Path
 
     from singletrack.arrays import Array
     from singletrack.parameters import Bicycle, Rider
+    from singletrack.posture import Mechanism
 
 __all__ = ["CoefficientMatrices", "coefficients"]
 
@@ -68,7 +70,7 @@ class CoefficientMatrices(LinearModel):
 def coefficients(
     bicycle: Bicycle,
     rider: Rider | None = None,
-    posture: str = "rigid",
+    posture: str | Path | Mechanism = "rigid",
     shoulder: str | None = None,
     *,
     arms: str | None = None,
@@ -86,8 +88,9 @@ def coefficients(
     bicycle : Bicycle
     rider : Rider, optional
         Without one, the bicycle as measured.
-    posture : {"rigid", "leaned", "upright"}
-        ``rigid``: hands free; ``leaned``: stretched arms, twisting torso; ``upright``: flexed arms, still torso.
+    posture : str, path or Mechanism
+        ``rigid``: hands free; ``leaned``: stretched arms, twisting torso; ``upright``: flexed arms, still torso;
+        another shipped posture, a mechanism file, or a mechanism.
     shoulder : {"abduction", "axial"}, optional
         Second axis of the shoulder joint; by default abduction for ``leaned``, axial for ``upright``.
     arms : {"straight", "bent"}, optional
@@ -123,6 +126,7 @@ def coefficients(
     (0.4614, 2.3268)
     """
     require_records(bicycle, rider)
-    options = Options(posture, shoulder, arms, torso_lean, springs or {}, dampers or {})
+    require_posture(posture)
+    options = Options(named_posture(posture), shoulder, arms, torso_lean, springs or {}, dampers or {})
     warn_of_oddities(bicycle, rider)
     return CoefficientMatrices.of(closed_form.coefficients(bicycle, rider, options))
