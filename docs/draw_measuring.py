@@ -8,9 +8,9 @@ from matplotlib.patches import Arc
 from singletrack import coefficients, load_bicycle, load_rider
 from singletrack.analysis.uncertainty import eigenvalue_uncertainty
 from singletrack.body.skeleton import skeleton
+from singletrack.output import write_whole
 from singletrack.present.bands import add_bands
 from singletrack.present.eigenvalues import draw_eigenvalues
-from singletrack.present.files import write_whole
 from singletrack.present.style import COLOURS, figure_bytes, new_figure, style
 
 FOLDER = Path(__file__).parent / "figures"

@@ -12,7 +12,16 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Sequence
 
-__all__ = ["InputError", "ModelError", "PostureError", "SingletrackError", "nearest", "unknown", "unknown_name"]
+__all__ = [
+    "InputError",
+    "ModelError",
+    "OddityWarning",
+    "PostureError",
+    "SingletrackError",
+    "nearest",
+    "unknown",
+    "unknown_name",
+]
 
 
 class SingletrackError(ValueError):
@@ -140,6 +149,10 @@ class PostureError(SingletrackError):
 
 class ModelError(SingletrackError):
     """A multibody system that is not well defined; names the element."""
+
+
+class OddityWarning(UserWarning):
+    """Something allowed that looks odd: a value that is seldom meant, an option without effect."""
 
 
 _MOST_LISTED = 12

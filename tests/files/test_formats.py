@@ -151,7 +151,7 @@ def test_symbols_are_those_of_the_field():
         ("c = 0.0563\n", "", "lacks c"),
         ("IBxx = 0.37287", "ibxx = 0.37287", "did you mean IBxx?"),
         ("mB = 7.22", "mB = -7.22", "mB: rear_frame_mass = -7.22 kg, must be greater than zero"),
-        ("lam = ", "lam = 16.9 #", "must be between 0 and 90 deg"),
+        ("lam = ", "lam = 16.9 #", "must be between -90 and 90 deg"),
         ("IByy = 0.71687", "IByy = 7.1687", "IBxx: rear_frame_inertia"),
         ("g = 9.81", "g = 9.81\nyB = 0.1", "yB = 0.1, must be 0"),
     ],

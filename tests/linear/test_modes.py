@@ -13,7 +13,7 @@ from conftest import random_bicycle
 from singletrack import CoefficientMatrices, InputError, coefficients, load_bicycle, load_rider
 from singletrack.linear.characteristic import characteristic_polynomial
 from singletrack.linear.meetings import find_meetings, meeting_speeds
-from singletrack.linear.slots import arrange
+from singletrack.linear.root_order import arrange
 
 COUNTS = (5, 11, 101, 1001)
 
@@ -195,15 +195,15 @@ def test_labelled_modes():
     st.booleans(),
 )
 @settings(max_examples=300, deadline=None)
-def test_slots_hold_all_roots(pairs, reals, count, descending):
+def test_the_order_holds_all_roots(pairs, reals, count, descending):
     for roots in (
         [pairs[0], pairs[0].conjugate(), pairs[1], pairs[1].conjugate()],
         [pairs[0], pairs[0].conjugate(), *reals[:2]],
         reals,
     ):
         given_roots = np.array(roots, dtype=complex)
-        slots = arrange(given_roots, np.array(count), np.array(descending))
-        np.testing.assert_array_equal(np.sort_complex(slots), np.sort_complex(given_roots))
+        ordered = arrange(given_roots, np.array(count), np.array(descending))
+        np.testing.assert_array_equal(np.sort_complex(ordered), np.sort_complex(given_roots))
 
 
 @given(st.integers(0, 2**32 - 1))

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import os
+import subprocess
+import sys
 from itertools import combinations
 from typing import TYPE_CHECKING, Any
 
@@ -11,6 +14,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from singletrack.linear.quartic import hard
 from singletrack.linear.quartic import solve as quartic
 from singletrack.linear.quartic.solve import quartic_roots
 
@@ -219,3 +223,40 @@ def test_nearly_singular_mass_matrices(random_models: CoefficientMatrices, small
     roots = model.eigenvalues(SPEEDS)
     assert np.isfinite(roots).all()
     assert pencil_errors(model, SPEEDS, roots).max() < 50 * EPS
+
+
+def test_no_place_for_machine_code_is_no_obstacle() -> None:
+    """An installation that cannot be written to, no home folder: numba finds no place to keep what it compiled."""
+    pytest.importorskip("numba")
+    script = (
+        "from singletrack.linear.quartic.solve import quartic_roots, use_compiled; use_compiled(); "
+        "print(quartic_roots(0.0, -5.0, 0.0, 4.0).tolist())"
+    )
+    nowhere = {**os.environ, "NUMBA_CACHE_LOCATOR_CLASSES": "ZipCacheLocator"}
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, env=nowhere, check=False)
+    assert done.stdout.strip() == "[(-2+0j), (-1+0j), (1+0j), (2+0j)]", done.stderr
+
+
+def product_errors(roots: np.ndarray, coefficients: np.ndarray) -> np.ndarray:
+    """Return how far the product of the roots' factors is from the quartic, relative to its terms, (4, n)."""
+    size = np.abs(coefficients_of(-np.abs(roots)))
+    return np.abs(coefficients_of(roots) - coefficients) / np.where(size == 0, 1.0, size)
+
+
+@pytest.mark.parametrize("family", HARD)
+def test_the_roots_together_are_those_of_the_quartic(family: str) -> None:
+    """Each root alone may be exact and the four together not: three nearly equal ones, one of them twice."""
+    assert np.nanmax(product_errors(quartic_roots(*HARD[family]), HARD[family])) < 1e-13
+
+
+def test_wrong_roots_of_the_last_resort_do_not_leave(monkeypatch: pytest.MonkeyPatch) -> None:
+    coefficients = HARD["triple, gap 0.0"][:, :50]
+    monkeypatch.setattr(np.linalg, "eigvals", lambda companions: np.ones(companions.shape[:-1]))
+    assert np.isnan(hard._solve_by_lapack(*coefficients)).all()
+
+
+def test_numbers_far_out_of_range_are_solved() -> None:
+    b, c, d, e = HARD["any"][:, :100]
+    for size in (1e-70, 1e70):
+        scaled = quartic_roots(b * size, c * size**2, d * size**3, e * size**4)
+        np.testing.assert_allclose(scaled / size, quartic_roots(b, c, d, e), rtol=1e-9)

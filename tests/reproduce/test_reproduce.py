@@ -9,7 +9,7 @@ import re
 import numpy as np
 import pytest
 
-from singletrack.present.files import write_whole
+from singletrack.output import write_whole
 from singletrack.reproduce import report as report_module
 from singletrack.reproduce import reproduce
 from singletrack.reproduce.cases import paper_cases

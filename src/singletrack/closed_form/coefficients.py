@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import dataclasses
 from typing import TYPE_CHECKING
 
-from singletrack.arrays import require_double
+from singletrack.arrays import is_concrete, refuse_single, require_double
 from singletrack.closed_form.slaved import slaved_matrices
 from singletrack.closed_form.whipple import whipple_matrices
 from singletrack.model import LinearModel
+from singletrack.model.definite import indefinite
 from singletrack.posture import Options, seat, slaved_bodies
 
 if TYPE_CHECKING:
@@ -37,7 +39,8 @@ def coefficients(bicycle: Bicycle, rider: Rider | None = None, options: Options 
     Raises
     ------
     InputError
-        For an unknown name, a bicycle without frame geometry, a rider without forward lean angle;
+        For an unknown name, a bicycle without frame geometry, a rider without forward lean angle; for a mass matrix
+        that is not positive definite, such as of a massless front assembly;
         for JAX arrays in single precision.
     PostureError
         If arms or legs do not reach, or the arms cannot follow the steer.
@@ -58,9 +61,16 @@ def coefficients(bicycle: Bicycle, rider: Rider | None = None, options: Options 
     require_double(bare.M)
     if rider is None:
         options.require_rider()
-        return LinearModel(*bare, bicycle.gravity, faults=bicycle.standing_faults)
+        return _checked(LinearModel(*bare, bicycle.gravity, faults=bicycle.standing_faults), bicycle.name)
     bodies = slaved_bodies(seat(bicycle, rider, options), bicycle)
     added = slaved_matrices(bodies, bicycle)
     faults = bicycle.standing_faults + rider.standing_faults + bodies.faults
     M, C1, K0, K2 = (one + other for one, other in zip(bare, added, strict=True))
-    return LinearModel(M, C1, K0, K2, bicycle.gravity, faults=faults)
+    return _checked(LinearModel(M, C1, K0, K2, bicycle.gravity, faults=faults), bicycle.name)
+
+
+def _checked(model: LinearModel, name: str) -> LinearModel:
+    """Return a model with the fault of a mass matrix that is not positive definite; raise it for a single design."""
+    if not is_concrete(model.M):
+        return model
+    return dataclasses.replace(model, faults=model.faults + refuse_single([indefinite(model.M)], where=name))

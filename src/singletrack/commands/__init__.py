@@ -1,1 +1,1 @@
-"""The command line, one module for each household of commands."""
+"""The command line: a module for each command, and the door that opens them when they are asked for."""

@@ -1,4 +1,4 @@
-"""Arguments and options of the command line: their names, kinds and help."""
+"""Arguments and options that several commands share, or whose kinds need a name: told once."""
 
 from __future__ import annotations
 
@@ -12,43 +12,14 @@ __all__ = [
     "BicycleArgument",
     "CentreFit",
     "CsvOption",
-    "EngineName",
-    "EngineOption",
     "JsonOption",
     "OutputFileOption",
     "Parameterization",
-    "PostureName",
-    "PostureOption",
     "RecordKind",
-    "RiderOption",
-    "SetOption",
-    "ShoulderName",
-    "ShoulderOption",
     "SpeedsOption",
     "TemplateKind",
+    "ThingArgument",
 ]
-
-
-class PostureName(StrEnum):
-    """Postures of a rider."""
-
-    rigid = "rigid"
-    leaned = "leaned"
-    upright = "upright"
-
-
-class ShoulderName(StrEnum):
-    """Second axis of the shoulder joint."""
-
-    abduction = "abduction"
-    axial = "axial"
-
-
-class EngineName(StrEnum):
-    """The two independent derivations."""
-
-    closed_form = "closed-form"
-    multibody = "multibody"
 
 
 class TemplateKind(StrEnum):
@@ -82,18 +53,7 @@ class CentreFit(StrEnum):
 
 
 BicycleArgument = Annotated[str, typer.Argument(metavar="BICYCLE", help="A shipped name or a file.")]
-RiderOption = Annotated[
-    str | None, typer.Option("--rider", metavar="RIDER", help="A shipped name or a file; without: no rider.")
-]
-PostureOption = Annotated[PostureName, typer.Option("--posture", help="rigid: hands free.")]
-ShoulderOption = Annotated[
-    ShoulderName | None, typer.Option("--shoulder", help="Second shoulder axis; by default as the posture has it.")
-]
-EngineOption = Annotated[EngineName, typer.Option("--engine", help="Which derivation to use.")]
-SetOption = Annotated[
-    list[str] | None,
-    typer.Option("--set", metavar="NAME=VALUE", help='Change a parameter, e.g. "steer_axis_tilt=18.5 deg".'),
-]
+ThingArgument = Annotated[str, typer.Argument(metavar="NAME", help="A shipped name or a file in any format.")]
 SpeedsOption = Annotated[
     str, typer.Option("--speeds", metavar="START:STOP:COUNT", help="Forward speeds in m/s, or one value.")
 ]

@@ -3,16 +3,27 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import Annotated
+
+import typer
+from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeRemainingColumn
 
 from singletrack.errors import InputError
+from singletrack.present.terminal import Terminal
 from singletrack.sweep.run import Summary, require_extra, run_sweep
 from singletrack.sweep.study import Study, load_study
 
-if TYPE_CHECKING:
-    from rich.console import Console
+__all__ = ["run", "run_study"]
 
-__all__ = ["run_study"]
+
+def run(
+    study: Annotated[Path, typer.Argument(metavar="STUDY", help="A study file (TOML).")],
+    output: Annotated[Path | None, typer.Option(metavar="STORE", help="Zarr store to write.")] = None,
+    scheduler: Annotated[str | None, typer.Option(metavar="ADDRESS", help="A running Dask scheduler.")] = None,
+    workers: Annotated[int | None, typer.Option(help="Processes on this machine; by default one a core.")] = None,
+) -> None:
+    """Compute many designs as a study file says."""
+    run_study(study, output, scheduler, workers)
 
 
 def run_study(
@@ -37,15 +48,13 @@ def run_study(
     KeyboardInterrupt
         If interrupted; said on stderr before, with how to go on.
     """
-    from rich.console import Console  # lazy: heavy
-
     require_extra()
     if workers is not None and (workers < 1 or scheduler is not None):
         raise InputError(f"--workers {workers}: must be at least 1, and is not for a --scheduler, which has its own")
     study = load_study(study_file)
     if output is None:
         output = Path.cwd() / f"{study_file.stem}.zarr"
-    console = Console(stderr=True)
+    console = Terminal(stderr=True)
     try:
         summary = _with_progress(study, output, scheduler, workers, console)
     except KeyboardInterrupt:
@@ -54,9 +63,9 @@ def run_study(
     console.print(_report(summary, study, output))
 
 
-def _with_progress(study: Study, output: Path, scheduler: str | None, workers: int | None, console: Console) -> Summary:
-    from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeRemainingColumn
-
+def _with_progress(
+    study: Study, output: Path, scheduler: str | None, workers: int | None, console: Terminal
+) -> Summary:
     problems = len(study.speeds)
     columns = (
         BarColumn(bar_width=12),

@@ -69,7 +69,7 @@ def _one_axis(speeds: Array) -> Array:
 
 
 def _roots_at(polynomials: CharacteristicPolynomial, v: np.ndarray) -> np.ndarray:
-    """Return the roots (m, n, 4) of m polynomials at n speeds, treated in pieces that stay in the cache."""
+    """Return the roots (m, n, 4) of m polynomials at n speeds, in chunks that stay in the cache."""
     designs, n = len(polynomials.a4), max(len(v), 1)
     roots = np.empty((designs, len(v), 4), dtype=complex)
     step = max(1, CHUNK // n)

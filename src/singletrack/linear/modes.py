@@ -21,7 +21,7 @@ from singletrack.linear.characteristic import characteristic_polynomial
 from singletrack.linear.eigenvalues import checked_speeds, eigenmotions, eigenvalues
 from singletrack.linear.meetings import Meetings, find_meetings
 from singletrack.linear.quartic.solve import quartic_roots
-from singletrack.linear.slots import arrange, label_at_infinity, label_below, real_count
+from singletrack.linear.root_order import arrange, label_at_infinity, label_below, real_count
 
 if TYPE_CHECKING:
     import xarray
@@ -137,10 +137,10 @@ def _follow(p: CharacteristicPolynomial, v: np.ndarray, roots: np.ndarray) -> np
     counts, labels = _labels(p, meetings)
     interval = (v[None, :, None] > meetings.speeds[:, None, :]).sum(axis=-1)
     count = np.take_along_axis(counts, interval, axis=1)
-    slots = arrange(roots, count, descending=v[None, :] < meetings.passing[:, None])
+    ordered = arrange(roots, count, descending=v[None, :] < meetings.passing[:, None])
     columns = np.take_along_axis(labels, interval[..., None], axis=1)
     named = np.empty_like(roots)
-    np.put_along_axis(named, columns, slots, axis=-1)
+    np.put_along_axis(named, columns, ordered, axis=-1)
     first, second = named[..., 0], named[..., 1]
     both_real = (first.imag == 0) & (second.imag == 0)
     swapped = ((first.imag < 0) & (second.imag > 0)) | (both_real & (first.real > second.real))
@@ -149,7 +149,7 @@ def _follow(p: CharacteristicPolynomial, v: np.ndarray, roots: np.ndarray) -> np
 
 
 def _labels(p: CharacteristicPolynomial, meetings: Meetings) -> tuple[np.ndarray, np.ndarray]:
-    """Return, for m designs and 7 intervals, the number of real roots (m, 7) and the column of each slot (m, 7, 4)."""
+    """Return, for m designs and 7 intervals, the number of real roots (m, 7) and the column of each place (m, 7, 4)."""
     inside = meetings.between()
     counts = real_count(quartic_roots(*p.monic_at(inside)))
     finite = np.isfinite(meetings.speeds)

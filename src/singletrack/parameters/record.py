@@ -24,7 +24,9 @@ __all__ = ["ALLOWED", "Parameter", "Record", "parameter"]
 ALLOWED: dict[str, tuple[str, Callable[[Any], Any]]] = {
     "any": ("a finite number", lambda x: x == x),  # noqa: PLR0124  # true for all finite numbers
     "positive": ("greater than zero", lambda x: x > 0),
+    "not negative": ("zero or more", lambda x: x >= 0),
     "angle": ("between 0 and 90 deg (a bare number is in radians)", lambda x: (x > 0) & (x < 1.5707963267948966)),
+    "tilt": ("between -90 and 90 deg (a bare number is in radians)", lambda x: abs(x) < 1.5707963267948966),
     "above ground": ("less than zero (z points down, the ground is at zero)", lambda x: x < 0),
     "fraction": ("greater than 0 and less than 1", lambda x: (x > 0) & (x < 1)),
 }
@@ -178,7 +180,7 @@ def _faults_of_value(name: str, value: Array, description: Parameter) -> Iterato
     finite = np.isfinite(array)
     bad = ~finite | ~np.where(finite, test(np.where(finite, array.real, 1.0)), False)  # noqa: FBT003
     found = f"{name} = {{found:.6g}}{unit}"
-    if description.allowed == "angle":
+    if description.allowed in {"angle", "tilt"}:
         found += " ({degrees:.6g} deg)"
     values = {"found": array, "degrees": np.degrees(array.real)}
     yield Fault(bad, f"{found}, must be {words}", values, InputError, (name,), words)

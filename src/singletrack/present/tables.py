@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 from rich.console import Group
 from rich.table import Table
-from rich.text import Text
+
+from singletrack.present.terminal import Words
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -52,7 +53,7 @@ def coefficients_table(model: LinearModel, title: str) -> Group:
         table.add_column(heading, justify="right" if heading in ("lean", "steer") else "left")
     for name, unit in _UNITS.items():
         matrix = getattr(model, name)
-        table.add_row(f"[bold]{name}[/] {_WORDS[name]}", "lean", _number(matrix[0, 0]), _number(matrix[0, 1]), unit)
+        table.add_row(f"{name} {_WORDS[name]}", "lean", _number(matrix[0, 0]), _number(matrix[0, 1]), unit)
         table.add_row("", "steer", _number(matrix[1, 0]), _number(matrix[1, 1]), unit, end_section=True)
     return Group(table, note)
 
@@ -93,8 +94,8 @@ def eigenvalues_table(modes: Modes, title: str) -> Group:
     return Group(table, note)
 
 
-def _root_cell(roots: np.ndarray, text: str, applies: bool) -> Text:
-    return Text(text if applies else f"({text})", style="red" if (roots.real > 0).any() else "")
+def _root_cell(roots: np.ndarray, text: str, applies: bool) -> Words:
+    return Words(text if applies else f"({text})", style="red" if (roots.real > 0).any() else "")
 
 
 def eigenvalues_csv(modes: Modes) -> str:

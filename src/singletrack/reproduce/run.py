@@ -6,9 +6,9 @@ import json
 from typing import TYPE_CHECKING
 
 from singletrack.body.skeleton import POINT_NAMES
+from singletrack.output import prepare_folder, write_whole
 from singletrack.present.drawings import posture_figure
 from singletrack.present.eigenvalues import eigenvalue_figure
-from singletrack.present.files import prepare_folder, write_whole
 from singletrack.present.phasors import phasor_figure
 from singletrack.present.style import figure_bytes
 from singletrack.present.tables import eigenvalues_csv, write_csv

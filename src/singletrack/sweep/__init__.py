@@ -1,7 +1,7 @@
-"""Sweeps: many designs and speeds, from a study file to a labelled store on disk, in stretches that outlive a stop."""
+"""Sweeps: many designs and speeds, from a study file to a labelled store on disk, in chunks that outlive a stop."""
 
+from singletrack.sweep.reading import check_sweep, designs_to_dicts, open_sweep
 from singletrack.sweep.run import Summary, run_sweep
-from singletrack.sweep.store import open_sweep
 from singletrack.sweep.study import Study, load_study
 
-__all__ = ["Study", "Summary", "load_study", "open_sweep", "run_sweep"]
+__all__ = ["Study", "Summary", "check_sweep", "designs_to_dicts", "load_study", "open_sweep", "run_sweep"]

@@ -1,4 +1,4 @@
-"""One stretch of a sweep: from rows of parameter values to arrays, in memory."""
+"""One chunk of a sweep: from rows of parameter values to arrays, in memory."""
 
 from __future__ import annotations
 
@@ -10,19 +10,22 @@ import numpy as np
 from singletrack import linear
 from singletrack.closed_form import coefficients
 from singletrack.linear.quartic.solve import use_compiled
-from singletrack.sweep.study import Study  # field of a record
+from singletrack.parameters import Bicycle, Rider
+from singletrack.posture import Options
+from singletrack.sweep.layout import CODES, Column, Layout, status_of
 
 if TYPE_CHECKING:
     from singletrack.model import LinearModel
+    from singletrack.sweep.study import Study
 
-__all__ = ["Task", "chunk_size", "compute_chunk"]
+__all__ = ["Task", "chunk_size", "compute_chunk", "layout_of"]
 
-#: Eigenvalue problems of a stretch (16 MB of eigenvalues), and designs at most (their segments take more room).
+#: Eigenvalue problems of a chunk (16 MB of eigenvalues), and designs at most (their segments take more room).
 _PROBLEMS, _DESIGNS = 2**18, 4096
 
 
 def chunk_size(speeds: int) -> int:
-    """Return the number of designs of a stretch.
+    """Return the number of designs of a chunk.
 
     >>> chunk_size(101), chunk_size(1)
     (2595, 4096)
@@ -32,9 +35,13 @@ def chunk_size(speeds: int) -> int:
 
 @dataclass(frozen=True, eq=False)
 class Task:
-    """What a worker needs to know of a study: all but the designs' values, which come with each stretch."""
+    """What a worker needs to know of a study: all but the designs' values, which come with each chunk."""
 
-    study: Study
+    bicycle: Bicycle
+    rider: Rider | None
+    options: Options
+    speeds: np.ndarray
+    keep: tuple[str, ...]
     names: tuple[str, ...]
     owners: tuple[str, ...]
 
@@ -42,46 +49,75 @@ class Task:
     def of(cls, study: Study) -> Task:
         """Return the task of a study."""
         variations = study.designs.variations
-        return cls(study, tuple(v.name for v in variations), tuple(v.owner for v in variations))
+        names, owners = tuple(v.name for v in variations), tuple(v.owner for v in variations)
+        return cls(study.bicycle, study.rider, study.options, study.speeds, study.keep, names, owners)
 
 
 def compute_chunk(task: Task, rows: np.ndarray) -> tuple[dict[str, np.ndarray], dict[str, np.ndarray]]:
     """Return the arrays to keep of designs (k, parameters), by name, and the faulty designs.
 
     Of those, the designs (k,) that are faulty are given as a mask for each kind of fault: its text with names for the
-    values, which differ from design to design. All results of a faulty design are NaN.
+    values, which differ from design to design. All results of a faulty design are NaN, and its status says so.
     """
     use_compiled()
-    study = task.study
-    changes: dict[str, dict[str, np.ndarray]] = {"bicycle": {}, "rider": {}}
-    for i, (name, owner) in enumerate(zip(task.names, task.owners, strict=True)):
-        changes[owner][name] = np.ascontiguousarray(rows[:, i])
-    bicycle = study.bicycle.replace(**changes["bicycle"])
-    rider = None if study.rider is None else study.rider.replace(**changes["rider"])
-    with np.errstate(all="ignore"):  # faulty designs are flagged
-        model = coefficients(bicycle, rider, study.options)
-        arrays = _results(model, study, len(rows))
+    model = _model(task, rows)
+    arrays = _results(model, task, len(rows))
     faults: dict[str, np.ndarray] = {}
     for fault in model.faults:
         faults[fault.kind] = faults.get(fault.kind, np.False_) | np.broadcast_to(np.asarray(fault.bad), (len(rows),))
-    for values in arrays.values():
-        values[~np.broadcast_to(model.valid, (len(rows),))] = np.nan
+    faulty = ~np.broadcast_to(model.valid, (len(rows),))
+    for name, values in arrays.items():
+        values[faulty] = CODES[name].index("faulty") if name in CODES else np.nan
     return arrays, faults
 
 
-def _results(model: LinearModel, study: Study, count: int) -> dict[str, np.ndarray]:
-    arrays: dict[str, np.ndarray] = {}
-    if "matrices" in study.keep:
-        for name in ("M", "C1", "K0", "K2"):
-            arrays[name] = np.array(np.broadcast_to(getattr(model, name), (count, 2, 2)))
-    if "eigenvalues" in study.keep:
-        roots = linear.eigenvalues(model, study.speeds)
-        arrays["eigenvalues"] = roots if roots.ndim == 3 else np.array(np.broadcast_to(roots, (count, *roots.shape)))
-    if {"critical_speeds", "stable_ranges"} & set(study.keep):
-        critical = linear.critical_speeds(model)
-        if "critical_speeds" in study.keep:
-            arrays["weave_speeds"] = np.array(np.broadcast_to(critical.weave_speeds, (count, 2)))
-            arrays["capsize_speeds"] = np.array(np.broadcast_to(critical.capsize_speeds, (count, 2)))
-        if "stable_ranges" in study.keep:
-            arrays["stable_ranges"] = np.array(np.broadcast_to(critical.ranges, (count, 3, 2)))
+def _model(task: Task, rows: np.ndarray) -> LinearModel:
+    changes: dict[str, dict[str, np.ndarray]] = {"bicycle": {}, "rider": {}}
+    for i, (name, owner) in enumerate(zip(task.names, task.owners, strict=True)):
+        changes[owner][name] = np.ascontiguousarray(rows[:, i])
+    bicycle = task.bicycle.replace(**changes["bicycle"])
+    rider = None if task.rider is None else task.rider.replace(**changes["rider"])
+    with np.errstate(all="ignore"):  # faulty designs are flagged
+        return coefficients(bicycle, rider, task.options)
+
+
+def _results(model: LinearModel, task: Task, count: int) -> dict[str, np.ndarray]:
+    arrays: dict[str, np.ndarray] = {"status": np.full(count, CODES["status"].index("computed"), dtype=np.int8)}
+
+    def keep(name: str, values: np.ndarray, single: int) -> None:
+        """Keep results whose part for one design has ``single`` dimensions."""
+        one = values.shape[values.ndim - single :]
+        arrays[name] = np.array(np.broadcast_to(values, (count, *one)))
+
+    with np.errstate(all="ignore"):
+        if "matrices" in task.keep:
+            for name in ("M", "C1", "K0", "K2") if model.is_undamped else ("M", "C0", "C1", "S0", "K0", "K2"):
+                keep(name, np.asarray(getattr(model, name)), 2)
+        if "eigenvalues" in task.keep:
+            keep("eigenvalues", linear.eigenvalues(model, task.speeds), 2)
+        if {"critical_speeds", "stable_ranges"} & set(task.keep):
+            critical = linear.critical_speeds(model)
+            if "critical_speeds" in task.keep:
+                keep("weave_speeds", critical.weave_speeds, 1)
+                keep("capsize_speeds", critical.capsize_speeds, 1)
+            if "stable_ranges" in task.keep:
+                keep("stable_ranges", critical.ranges, 2)
+    for name in ("weave_speeds", "capsize_speeds", "stable_ranges"):
+        if name in arrays:
+            arrays[f"{name.partition('_')[0]}_status"] = status_of(arrays[name])
     return arrays
+
+
+def layout_of(study: Study) -> Layout:
+    """Return the arrays of a study's store: those of the results of its first design, and the parameters that vary."""
+    task = Task.of(study)
+    first = study.designs.rows(0, 1)
+    arrays, _ = compute_chunk(task, first)
+    columns = [Column.of_results(name, values[0]) for name, values in arrays.items()]
+    columns.append(Column.of_results("fault", np.zeros((), dtype=np.int16)))
+    columns += [Column(v.name, (), "<f8", (), {"units": v.unit, "owner": v.owner}) for v in study.designs.variations]
+    used = {name for column in columns for name in column.dimensions}
+    coordinates = np.array(_model(task, first).coordinates)
+    labels = {"equation": coordinates, "coordinate": coordinates, "bound": np.array(["from", "to"])}
+    kept = {name: values for name, values in labels.items() if name in used} | {"speed": study.speeds}
+    return Layout(study.designs.count, chunk_size(len(study.speeds)), tuple(columns), kept)

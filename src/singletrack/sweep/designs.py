@@ -1,4 +1,4 @@
-"""The designs of a study: values of the parameters that vary, any stretch of them at a time.
+"""The designs of a study: values of the parameters that vary, any part of them at a time.
 
 A row depends on its number alone, so that a study can be computed in any order and taken up again anywhere.
 """
@@ -19,6 +19,8 @@ from singletrack.errors import InputError
 __all__ = ["Designs", "Variation", "make_designs"]
 
 _LARGEST_TABLE = 50_000_000
+#: Designs of a sweep: beyond, it would take weeks and terabytes.
+_MOST = 1_000_000_000
 _BLOCK = 4096
 
 
@@ -83,9 +85,10 @@ class Designs:
         """Return numbers (stop - start, parameters) between 0 and 1."""
 
     def to_dict(self) -> dict[str, Any]:
-        """Return what determines the designs, as plain values."""
+        """Return what determines the designs and their numbers, as plain values; the order of [vary] counts."""
         vary = {v.name: {"kind": v.kind, "unit": v.unit, "numbers": list(v.numbers)} for v in self.variations}
-        return {"method": self.method, "count": self.count, "seed": self.seed, "vary": vary}
+        order = list(vary)
+        return {"method": self.method, "count": self.count, "seed": self.seed, "order": order, "vary": vary}
 
 
 class _Grid(Designs):
@@ -147,7 +150,7 @@ class _Sobol(Designs):
         if start:
             sequence.fast_forward(start)
         with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # a stretch need not be a power of two; the whole is, we see to that
+            warnings.simplefilter("ignore")  # a chunk need not be a power of two; the whole is, we see to that
             points: np.ndarray = sequence.random(stop - start)
         return points
 
@@ -195,6 +198,12 @@ def make_designs(
         counts = ", ".join(f"{v.name} {len(v.numbers)}" for v in variations)
         raise InputError(f"{where}: sampling.method = 'list' with {counts} values; must be equally many of each")
     count = samples or (prod(lengths) if method == "grid" else lengths[0])
+    if count > _MOST:
+        each = " x ".join(f"{length:,}" for length in lengths)
+        raise InputError(
+            f"{where}: [vary] makes a grid of {each} = {count:,} designs, must be at most {_MOST:,}; take fewer values "
+            "of each, or a Sobol sequence of so many samples as you need"
+        )
     if method == "sobol" and count & (count - 1):
         below = 1 << (count.bit_length() - 1)
         raise InputError(

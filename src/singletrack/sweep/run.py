@@ -1,29 +1,33 @@
-"""Running a sweep: stretches handed to this process or to Dask workers, recorded as they come back."""
+"""Running a sweep: chunks handed to this process, to others, or to a cluster, recorded as they come back."""
 
 from __future__ import annotations
 
-import importlib
-import os
-from contextlib import contextmanager
+import errno
+from contextlib import closing
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from importlib.util import find_spec
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from singletrack.errors import InputError, SingletrackError
-from singletrack.sweep.chunks import Task, compute_chunk
-from singletrack.sweep.store import Store, write_chunk
+from singletrack.sweep.chunks import Task
+from singletrack.sweep.cluster import do_on_cluster
+from singletrack.sweep.processes import available_cores, do_in_processes
+from singletrack.sweep.provenance import programs
+from singletrack.sweep.store import Store, open_store, partial_of
+from singletrack.sweep.work import Chunk, Order, do
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
+    from collections.abc import Callable, Generator
     from pathlib import Path
 
+    from singletrack.sweep.journal import Entry
     from singletrack.sweep.study import Study
 
 __all__ = ["Summary", "require_extra", "run_sweep"]
 
-#: Stretches given out for each worker: one that it works on, one that waits.
-_AHEAD = 2
+_MOST_WORKERS = 1024
 
 
 @dataclass(frozen=True)
@@ -37,21 +41,22 @@ class Summary:
     resumed : int
         Of these, found on disk from an earlier run.
     faulty : int
-        Designs of this run with a fault.
+        Designs with a fault, in the whole sweep.
+    damaged : int
+        Chunks of an earlier run that were not as they had been written, and were computed again.
     """
 
     designs: int
     resumed: int
     faulty: int
+    damaged: int = 0
 
 
-def require_extra() -> None:
+def require_extra(scheduler: str | None = None) -> None:
     """Raise InputError if what sweeps need besides is not installed."""
-    try:
-        import distributed  # noqa: F401
-        import zarr  # noqa: F401
-    except ImportError as error:
-        raise InputError(f"sweeps need {error.name}: pip install 'singletrack[sweep]'") from None
+    for name, who, extra in (("zarr", "sweeps need", "sweep"), ("distributed", "--scheduler needs", "cluster")):
+        if find_spec(name) is None and (scheduler is not None or extra == "sweep"):
+            raise InputError(f"{who} {name}: pip install 'singletrack[{extra}]'")
 
 
 def run_sweep(
@@ -71,104 +76,62 @@ def run_sweep(
     scheduler : str, optional
         Address of a Dask scheduler whose workers see the same file system.
     workers : int, optional
-        Processes on this machine, by default one for each core; 1 computes here. Not with ``scheduler``.
+        Processes on this machine, by default one for each core; 1 computes here. Not with ``scheduler``. Processes are
+        started afresh: a script that calls this with more than one needs the usual ``if __name__ == "__main__":``.
     progress : callable
         Called with the number of designs on disk, and how many of them were there from the start.
 
     Raises
     ------
     InputError
-        If the output exists, belongs to another study or is being written, or there is no such scheduler.
+        If the output exists, belongs to another study or is being written, there is no room for it, or there is no
+        such scheduler.
+    SingletrackError
+        If workers die, or the scheduler, or the disk is full: what is done is kept.
     """
-    require_extra()
-    if output.exists():
-        raise InputError(f"{output}: exists already; remove it or choose another output")
-    with Store(study, output) as store:
-        count = study.designs.count
-        left = sum(stop - start for start, stop in store.pieces())
-        resumed, finished, faulty = count - left, count - left, 0
-        progress(finished, resumed)
-        with _executor(scheduler, workers, pieces=len(list(store.pieces()))) as execute:
-            task = Task.of(study)
-            pieces = ((task, store.data, start, study.designs.rows(start, stop)) for start, stop in store.pieces())
-            for start, size, faults in execute(pieces):
-                store.record(start, faults)
-                finished += size
-                faulty += int(np.any(list(faults.values()), axis=0).sum()) if faults else 0
-                progress(finished, resumed)
-        store.finish()
-    return Summary(count, resumed, faulty)
-
-
-_Piece = tuple[Task, "Path", int, "np.ndarray"]
-_Done = tuple[int, int, "dict[str, np.ndarray]"]
-
-
-def _do(piece: _Piece) -> _Done:
-    task, data, start, rows = piece
-    arrays, faults = compute_chunk(task, rows)
-    write_chunk(data, start, {**arrays, **{name: rows[:, i] for i, name in enumerate(task.names)}})
-    return start, len(rows), faults
-
-
-@contextmanager
-def _executor(
-    scheduler: str | None, workers: int | None, pieces: int
-) -> Iterator[Callable[[Iterator[_Piece]], Iterator[_Done]]]:
-    """Yield a function that does pieces, in any order, a few at a time."""
-    workers = min(workers or len(os.sched_getaffinity(0)), max(pieces, 1))
-    if scheduler is None and workers == 1:
-        yield lambda work: map(_do, work)
-        return
-    distributed = _distributed()
-    with _client(scheduler, workers) as client:
-
-        def execute(work: Iterator[_Piece]) -> Iterator[_Done]:
-            room = _AHEAD * max(1, sum(client.nthreads().values()))
-            waiting = distributed.as_completed(
-                [client.submit(_do, piece, pure=False) for _, piece in zip(range(room), work, strict=False)]
-            )
-            for future in waiting:
-                result = _result(future)
-                following = next(work, None)
-                if following is not None:
-                    waiting.add(client.submit(_do, following, pure=False))
-                yield result
-
-        yield execute
-
-
-def _distributed() -> Any:
-    return importlib.import_module("distributed")  # lazy: optional, heavy, untyped
-
-
-def _result(future: Any) -> _Done:
+    require_extra(scheduler)
+    if workers is not None and not 1 <= workers <= _MOST_WORKERS:
+        raise InputError(f"workers = {workers}, must be a whole number from 1 to {_MOST_WORKERS}")
     try:
-        done: _Done = future.result()
-    except _distributed().KilledWorker as error:
-        raise SingletrackError(
-            f"the workers that were given one stretch of the sweep died each time ({error}); is there enough memory? "
-            "What is on disk is kept: run the sweep again to go on"
-        ) from None
-    return done
+        with open_store(study, output) as store:
+            return _fill(store, scheduler, workers, progress)
+    except (OSError, MemoryError) as error:
+        raise _stopped(error, output) from None
 
 
-@contextmanager
-def _client(scheduler: str | None, workers: int) -> Iterator[Any]:
-    distributed = _distributed()
-    if scheduler is not None:
-        try:
-            client = distributed.Client(scheduler, timeout="10s")
-        except (OSError, ValueError) as error:
-            raise InputError(
-                f"--scheduler {scheduler}: no Dask scheduler answers ({error}); must be an address such as "
-                "tcp://192.168.0.5:8786"
-            ) from None
-        with client:
-            yield client
+def _fill(store: Store, scheduler: str | None, workers: int | None, progress: Callable[[int, int], None]) -> Summary:
+    count, left = store.layout.designs, list(store.chunks())
+    resumed = finished = count - sum(stop - start for start, stop in left)
+    progress(finished, resumed)
+    with closing(_entries(store, left, scheduler, workers)) as entries:
+        for entry in entries:
+            store.record(entry)
+            finished += min(store.layout.chunk, count - entry.start)
+            progress(finished, resumed)
+    faulty = sum(
+        int(np.any(list(entry.faults.values()), axis=0).sum()) for entry in store.entries.values() if entry.faults
+    )
+    store.finish()
+    return Summary(count, resumed, faulty, store.damaged)
+
+
+def _entries(store: Store, left: list[tuple[int, int]], scheduler: str | None, workers: int | None) -> Generator[Entry]:
+    """Yield the chunks as they are done, in any order, wherever that is."""
+    order = Order(Task.of(store.study), store.data.absolute(), store.files, programs())
+    work = (Chunk(start, store.study.designs.rows(start, stop)) for start, stop in left)
+    if not left:
         return
-    with (
-        distributed.LocalCluster(n_workers=workers, threads_per_worker=1, dashboard_address=":0") as cluster,
-        distributed.Client(cluster) as client,
-    ):
-        yield client
+    if scheduler is not None:
+        yield from do_on_cluster(order, work, scheduler)
+        return
+    workers = min(workers or available_cores(), len(left))
+    yield from (do(order, chunk) for chunk in work) if workers == 1 else do_in_processes(order, work, workers)
+
+
+def _stopped(error: OSError | MemoryError, output: Path) -> SingletrackError:
+    kept = f"what is done is kept in {partial_of(output)}: run the same command again to go on"
+    if isinstance(error, MemoryError):
+        return SingletrackError(f"{output}: there is not enough memory; {kept}")
+    if error.errno in {errno.ENOSPC, errno.EDQUOT}:
+        return SingletrackError(f"{output}: the disk is full; {kept} when there is room")
+    return SingletrackError(f"{output}: {error.filename or 'a file'}: {error.strerror or error}; {kept}")

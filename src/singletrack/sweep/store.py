@@ -1,285 +1,250 @@
-"""The store of a sweep: a labelled xarray Dataset in Zarr, filled stretch by stretch, and a journal of what is done.
+"""The store of a sweep while it is being filled: chunk by chunk, with a journal of what is done.
 
-While a sweep runs, everything is in ``NAME.partial``: the store, and a journal that gets a line when all arrays of a
-stretch are on disk. What the journal does not list is computed again, over whatever was there. The finished store is
-moved to its place in one step.
+While a sweep runs, everything is in ``NAME.partial``: the store, and a journal that gets a line when all files of a
+chunk are synced. What the journal does not list, or what is not as it was written, is computed again. The finished
+store, with a list of the checksums of all its files, is moved to its place in one step.
 """
 
 from __future__ import annotations
 
-import base64
-import fcntl
 import json
 import os
 import shutil
+import tempfile
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
-from pathlib import Path
-from typing import TYPE_CHECKING, Any, TextIO
+from pathlib import Path  # field of a record
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from filelock import FileLock, Timeout
 
 from singletrack.errors import InputError
-from singletrack.sweep.chunks import chunk_size
+from singletrack.sweep import journal
+from singletrack.sweep.checksums import CHECKSUMS, checksum_lines, is_intact
+from singletrack.sweep.chunks import layout_of
+from singletrack.sweep.durable import (
+    TEMPORARY,
+    check_folder,
+    checksum,
+    move_folder,
+    sync_folder,
+    write_files,
+)
+from singletrack.sweep.journal import Entry
+from singletrack.sweep.layout import Layout, encode, file_name, metadata
+from singletrack.sweep.provenance import differences
 from singletrack.sweep.study import Study  # field of a record
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
-    from typing import Self
 
-    import xarray
+__all__ = ["Store", "open_store", "partial_of"]
 
 
-__all__ = ["Store", "open_sweep", "write_chunk"]
-
-#: For each array: dimensions after "design", unit, dtype and meaning.
-_ARRAYS: dict[str, tuple[tuple[str, ...], str, str, str]] = {
-    "M": (("equation", "coordinate"), "kg m^2", "f8", "mass matrix"),
-    "C1": (("equation", "coordinate"), "kg m", "f8", "damping matrix per speed"),
-    "K0": (("equation", "coordinate"), "kg m", "f8", "stiffness matrix per gravity"),
-    "K2": (("equation", "coordinate"), "kg", "f8", "stiffness matrix per squared speed"),
-    "eigenvalues": (("speed", "root"), "1/s", "c16", "sorted by real then imaginary part"),
-    "weave_speeds": (("crossing",), "m/s", "f8", "a pair crosses the imaginary axis; NaN: no more"),
-    "capsize_speeds": (("crossing",), "m/s", "f8", "a real root crosses zero; NaN: no more"),
-    "stable_ranges": (("range", "bound"), "m/s", "f8", "all roots in the left half plane; NaN: no more"),
-    "fault": ((), "", "i2", "0: sound; k: faulty, the k-th of the attribute fault_kinds; its results are NaN"),
-}
-_LABELS: dict[str, list[str]] = {
-    "equation": ["lean", "steer"],
-    "coordinate": ["lean", "steer"],
-    "bound": ["from", "to"],
-}
-_KEPT = {
-    "matrices": ("M", "C1", "K0", "K2"),
-    "eigenvalues": ("eigenvalues",),
-    "critical_speeds": ("weave_speeds", "capsize_speeds"),
-    "stable_ranges": ("stable_ranges",),
-}
-_SIZES = {"equation": 2, "coordinate": 2, "root": 4, "crossing": 2, "range": 3, "bound": 2}
+def partial_of(output: Path) -> Path:
+    """Return the folder of the unfinished sweep."""
+    return output.with_name(output.name + ".partial")
 
 
 @dataclass
 class Store:
-    """A sweep's store while it is being filled (a context manager that holds the lock).
+    """A sweep's store while it is being filled; :func:`open_store` makes and locks it.
 
     Attributes
     ----------
     study : Study
     output : Path
         Where the finished store will be.
-    done : set of int
-        Starts of the stretches that are on disk.
+    layout : Layout
+    entries : dict of int to Entry
+        The chunks on disk, by their first design.
+    damaged : int
+        Chunks that were found on disk, but not as they had been written.
     """
 
     study: Study
     output: Path
-    done: set[int] = field(default_factory=set)
-    _journal: TextIO | None = None
+    layout: Layout
+    entries: dict[int, Entry] = field(default_factory=dict)
+    damaged: int = 0
 
     @property
     def partial(self) -> Path:
         """Folder of the unfinished sweep."""
-        return self.output.with_name(self.output.name + ".partial")
+        return partial_of(self.output)
 
     @property
     def data(self) -> Path:
         """The Zarr store inside :attr:`partial`."""
         return self.partial / "data.zarr"
 
-    def pieces(self) -> Iterator[tuple[int, int]]:
-        """Yield (start, stop) of the stretches that are left to compute."""
-        size, count = chunk_size(len(self.study.speeds)), self.study.designs.count
-        for start in range(0, count, size):
-            if start not in self.done:
-                yield start, min(start + size, count)
+    @property
+    def journal(self) -> Path:
+        """The list of what is done."""
+        return self.partial / "journal.jsonl"
 
-    def __enter__(self) -> Self:
-        try:
-            self.partial.mkdir(parents=True, exist_ok=True)
-            journal = (self.partial / "journal.jsonl").open("a+", encoding="utf-8")
-        except OSError as error:
+    @property
+    def files(self) -> dict[str, bytes]:
+        """The files that describe the unfinished store, by name."""
+        return metadata(self.layout, _attributes(self.study))
+
+    def chunks(self) -> Iterator[tuple[int, int]]:
+        """Yield (start, stop) of the chunks that are left to compute."""
+        for start in range(0, self.layout.designs, self.layout.chunk):
+            if start not in self.entries:
+                yield start, min(start + self.layout.chunk, self.layout.designs)
+
+    def resume(self) -> None:
+        """Take up what an earlier run has left, or begin."""
+        columns = {column.name for column in self.layout.columns} - {"fault"}
+        described = self.study.to_dict() | {"chunk": self.layout.chunk}
+        found = journal.read_journal(self.journal, self.layout.designs, self.layout.chunk, columns)
+        if found is not None and (changed := differences(found.described, described)):
             raise InputError(
-                f"{self.partial}: cannot be written ({error.strerror}); must be in a folder that can be"
-            ) from None
-        try:
-            fcntl.flock(journal, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except OSError:
-            journal.close()
-            raise InputError(
-                f"{self.partial}: another sweep is writing here; wait for it or choose another output"
-            ) from None
-        self._journal = journal
-        journal.write("\n")  # ends a line that was cut short when its writer was killed
-        lines = _journal_lines(self.partial / "journal.jsonl")
-        if not lines:
-            self._create()
-            self._append({"study": self.study.fingerprint})
-        elif lines[0].get("study") != self.study.fingerprint:
-            journal.close()
-            raise InputError(
-                f"{self.partial}: holds an unfinished sweep of another study (or of this file before it was changed); "
-                "remove it, or choose another output"
+                f"{self.partial}: holds an unfinished sweep of another study (or of this file before it was changed): "
+                f"{changed}; remove it, or choose another output"
             )
-        self.done = {line["start"] for line in lines[1:]}
-        return self
+        if found is None:
+            shutil.rmtree(self.data, ignore_errors=True)
+            self.journal.unlink(missing_ok=True)
+        else:
+            for left in self.data.rglob(f"*{TEMPORARY}"):
+                left.unlink()
+            self.entries = {start: e for start, e in found.entries.items() if self._is_intact(e)}
+            self.damaged = len(found.entries) - len(self.entries)
+        self.data.mkdir(exist_ok=True)
+        write_files(self.data, self.files)
+        if found is None:
+            journal.write_header(self.journal, described, self.study.fingerprint)
+        for folder in (self.partial, self.output.parent):
+            sync_folder(folder)
 
-    def __exit__(self, *_: object) -> None:
-        if self._journal is not None:
-            self._journal.close()
+    def _is_intact(self, entry: Entry) -> bool:
+        names = ((file_name(column, entry.start, self.layout), value) for column, value in entry.sums.items())
+        return all(is_intact(self.data / name, value) for name, value in names)
 
-    def record(self, start: int, faults: dict[str, np.ndarray]) -> None:
-        """Note that a stretch is on disk, and which of its designs are faulty (a mask for each kind)."""
-        packed = {kind: base64.b64encode(np.packbits(bad).tobytes()).decode() for kind, bad in faults.items()}
-        self._append({"start": start, "faults": packed})
-        self.done.add(start)
-
-    def _append(self, line: dict[str, Any]) -> None:
-        assert self._journal is not None  # noqa: S101  # only used inside the context
-        self._journal.write(json.dumps(line) + "\n")
-        self._journal.flush()
-        os.fsync(self._journal.fileno())
-
-    def _create(self) -> None:
-        import zarr  # lazy: optional
-
-        shutil.rmtree(self.data, ignore_errors=True)
-        group = zarr.open_group(str(self.data), mode="w", zarr_format=2)
-        study, count = self.study, self.study.designs.count
-        size = chunk_size(len(study.speeds))
-        names = [name for kind in study.keep for name in _KEPT[kind]] + ["fault"]
-        used: set[str] = set()
-        for name in names:
-            dimensions, unit, dtype, meaning = _ARRAYS[name]
-            used.update(dimensions)
-            tail = tuple(len(study.speeds) if d == "speed" else _SIZES[d] for d in dimensions)
-            attributes = {"units": unit, "long_name": meaning}
-            _array(group, size, name, (count, *tail), ("design", *dimensions), dtype, attributes)
-        for v in study.designs.variations:
-            _array(group, size, v.name, (count,), ("design",), "f8", {"units": v.unit, "owner": v.owner})
-        labels: dict[str, Any] = {name: np.array(values) for name, values in _LABELS.items() if name in used}
-        for name, values in {**labels, "speed": study.speeds}.items():
-            about = {"units": "m/s"} if name == "speed" else {}
-            group.create_array(
-                name, data=values, fill_value=None, compressors=None, attributes={"_ARRAY_DIMENSIONS": [name], **about}
-            )
-        group.attrs.update(self._provenance())
-
-    def _provenance(self) -> dict[str, Any]:
-        study = self.study
-        described = study.to_dict()
-        described.pop("speeds")
-        coordinates = " ".join(v.name for v in study.designs.variations)
-        return {
-            "name": study.name,
-            "description": study.description,
-            "study": json.dumps(described),
-            "fingerprint": study.fingerprint,
-            "singletrack": described["singletrack"],
-            "numpy": np.__version__,
-            "coordinates": coordinates,
-        }
+    def record(self, entry: Entry) -> None:
+        """Note that a chunk is on disk."""
+        journal.write_entry(self.journal, entry)
+        self.entries[entry.start] = entry
 
     def finish(self) -> None:
-        """Write the faults of all stretches, and move the store to its place."""
-        import zarr
+        """Write the faults of all chunks and the checksums, and move the store to its place."""
+        entries = [self.entries[start] for start in sorted(self.entries)]
+        # In the order of the designs, whatever the order in which the chunks were done.
+        kinds = list(dict.fromkeys(kind for entry in entries for kind in entry.faults))
+        described = metadata(self.layout, _attributes(self.study) | {"fault_kinds": kinds})
+        write_files(self.data, described)
+        sums = {name: checksum(data) for name, data in described.items()}
+        for entry in entries:
+            fault = encode(described, entry.start, {"fault": self._fault_codes(entry, kinds)})
+            write_files(self.data, fault)
+            sums |= {name: checksum(data) for name, data in fault.items()}
+            sums |= {file_name(column, entry.start, self.layout): value for column, value in entry.sums.items()}
+        write_files(self.data, {CHECKSUMS: checksum_lines(sums)})
+        move_folder(self.data, self.output)
+        _remove(self.partial)
 
-        group = zarr.open_group(str(self.data), mode="r+", zarr_format=2)
-        lines = _journal_lines(self.partial / "journal.jsonl")[1:]
-        kinds = list(dict.fromkeys(kind for line in lines for kind in line["faults"]))
-        size, count = chunk_size(len(self.study.speeds)), self.study.designs.count
-        fault: Any = group["fault"]
-        for line in lines:
-            found = np.zeros(min(size, count - line["start"]), dtype=np.int16)
-            for kind, packed in line["faults"].items():
-                bits = np.unpackbits(np.frombuffer(base64.b64decode(packed), dtype=np.uint8), count=len(found))
-                found[(found == 0) & (bits == 1)] = kinds.index(kind) + 1
-            fault[line["start"] : line["start"] + size] = found
-        group.attrs["fault_kinds"] = kinds
-        zarr.consolidate_metadata(group.store)
-        self.data.rename(self.output)
-        shutil.rmtree(self.partial)
-
-
-def _array(
-    group: Any,
-    size: int,
-    name: str,
-    shape: tuple[int, ...],
-    dimensions: tuple[str, ...],
-    dtype: str,
-    attributes: dict[str, Any],
-) -> None:
-    """Create an array that is filled stretch by stretch; not compressed, since the digits of results are noise."""
-    fill = None if dtype == "i2" else np.nan  # what equals it reads as missing
-    group.create_array(
-        name,
-        shape=shape,
-        chunks=(min(size, shape[0]), *shape[1:]),
-        dtype=dtype,
-        fill_value=fill,
-        compressors=None,
-        attributes={"_ARRAY_DIMENSIONS": list(dimensions), **attributes},
-    )
+    def _fault_codes(self, entry: Entry, kinds: list[str]) -> np.ndarray:
+        codes = np.zeros(min(self.layout.chunk, self.layout.designs - entry.start), dtype=np.int16)
+        for kind, bad in entry.faults.items():
+            codes[(codes == 0) & bad] = kinds.index(kind) + 1
+        return codes
 
 
-def _journal_lines(path: Path) -> list[dict[str, Any]]:
-    """Return the lines of a journal; one that was cut short when the writer was killed does not count."""
-    lines = []
-    for line in path.read_text(encoding="utf-8").splitlines():
-        try:
-            lines.append(json.loads(line))
-        except json.JSONDecodeError:
-            continue
-    return lines
-
-
-def write_chunk(data: Path, start: int, arrays: dict[str, np.ndarray]) -> None:
-    """Write the arrays of the designs from ``start`` on; stretches are chunks of the store, so any order will do."""
-    import zarr  # lazy: optional
-
-    group: Any = zarr.open_group(str(data), mode="r+", zarr_format=2)
-    with zarr.config.set({"array.write_empty_chunks": True}):  # looking whether they are empty takes longer
-        for name, values in arrays.items():
-            group[name][start : start + len(values)] = values
-
-
-def open_sweep(path: str | Path) -> xarray.Dataset:
-    """Open a finished sweep: lazily, labelled, with units and provenance.
-
-    Designs are on the dimension ``design``, with the parameters that vary as coordinates; designs of a grid have a
-    dimension for each parameter instead.
+@contextmanager
+def open_store(study: Study, output: Path) -> Iterator[Store]:
+    """Make or take up the unfinished store of a study, locked, with everything found out that would stop it later.
 
     Raises
     ------
     InputError
-        If there is no finished sweep at that path.
+        If the output exists or cannot be written, there is no room for it, or what is there belongs to another study
+        or sweep.
     """
-    import xarray as xr  # lazy: heavy
+    partial = partial_of(output)
+    refuse_existing(output)
+    try:
+        _refuse_links(output, partial)
+        partial.mkdir(parents=True, exist_ok=True)
+        check_folder(partial)
+        with tempfile.TemporaryFile(dir=output.parent):
+            pass
+    except OSError as error:
+        raise InputError(f"{partial}: cannot be written ({error.strerror}); must be in a folder that can be") from None
+    lock = FileLock(partial / "lock")
+    try:
+        lock.acquire(timeout=0)
+    except Timeout:
+        raise InputError(f"{partial}: another sweep is writing here; wait for it or choose another output") from None
+    try:
+        refuse_existing(output)  # finished while we came here
+        store = Store(study, output, layout_of(study))
+        _refuse_too_large(store)
+        store.resume()
+        yield store
+    finally:
+        if not (partial / "journal.jsonl").exists():  # nothing was begun, or all is done
+            _remove(partial)
+        lock.release()
 
-    path = Path(path)
-    if not (path / ".zgroup").exists():
-        unfinished = path.with_name(path.name + ".partial").exists()
-        hint = "; the sweep is not finished: run it again to go on" if unfinished else ""
-        raise InputError(f"{path}: is not a finished sweep{hint}")
-    dataset: xarray.Dataset = xr.open_zarr(path, chunks=None, consolidated=True)
-    described = json.loads(dataset.attrs["study"])["designs"]
-    dataset = dataset.set_coords(list(described["vary"]))
-    if described["method"] != "grid":
-        return dataset
-    return _unstacked(dataset, {name: entry["numbers"] for name, entry in described["vary"].items()})
+
+def _remove(partial: Path) -> None:
+    """Remove the folder of an unfinished sweep, but nothing that is not ours."""
+    shutil.rmtree(partial / "data.zarr", ignore_errors=True)
+    for name in ("journal.jsonl", "lock"):
+        with suppress(OSError):
+            (partial / name).unlink(missing_ok=True)
+    with suppress(OSError):
+        partial.rmdir()
 
 
-def _unstacked(dataset: xarray.Dataset, axes: dict[str, list[float]]) -> xarray.Dataset:
-    import xarray as xr
+def refuse_existing(output: Path) -> None:
+    """Raise InputError if there is something at the place of an output, were it a link to nowhere."""
+    if output.is_symlink():
+        raise InputError(f"{output}: is a symbolic link; must be a name that does not exist yet")
+    if os.path.lexists(output):
+        raise InputError(f"{output}: exists already; remove it or choose another output")
 
-    units = {name: dict(dataset[name].attrs) for name in axes}
-    shape = tuple(len(values) for values in axes.values())
-    variables = {}
-    for name, variable in dataset.drop_vars(list(axes)).variables.items():
-        if "design" in variable.dims:
-            values = np.asarray(variable.values).reshape(*shape, *variable.shape[1:])
-            variables[name] = ((*axes, *variable.dims[1:]), values, variable.attrs)
-        else:
-            variables[name] = (variable.dims, variable.values, variable.attrs)
-    coordinates = {name: (name, np.array(values), units[name]) for name, values in axes.items()}
-    others = {name: variables.pop(name) for name in list(variables) if name in dataset.coords}
-    return xr.Dataset(variables, coords={**coordinates, **others}, attrs=dataset.attrs)
+
+def _refuse_links(output: Path, partial: Path) -> None:
+    if partial.is_symlink() or (os.path.lexists(partial) and not partial.is_dir()):
+        raise InputError(f"{partial}: is not a folder; {output.name} is collected there: remove it")
+
+
+def _refuse_too_large(store: Store) -> None:
+    there = sum(file.stat().st_size for file in store.partial.rglob("*") if file.is_file())
+    needed, free = store.layout.size - there, shutil.disk_usage(store.partial).free
+    if needed > free:
+        raise InputError(
+            f"{store.output}: {store.layout.designs:,} designs need {in_words(needed)}, and there are {in_words(free)} "
+            "free; must be on a larger disk, or keep less, or have fewer speeds or designs"
+        )
+
+
+def in_words(size: float) -> str:
+    """Return a number of bytes with a fitting unit.
+
+    >>> in_words(999), in_words(12_345_678), in_words(3e15)
+    ('999 bytes', '12.3 MB', '3000 TB')
+    """
+    for unit, value in (("TB", 1e12), ("GB", 1e9), ("MB", 1e6), ("kB", 1e3)):
+        if size >= value:
+            return f"{size / value:.3g} {unit}" if size < 1e15 else f"{size / value:.0f} {unit}"
+    return f"{size:.0f} bytes"
+
+
+def _attributes(study: Study) -> dict[str, Any]:
+    """Return the attributes of the store: where its numbers come from."""
+    described = study.to_dict()
+    described.pop("speeds")
+    return {
+        "name": study.name,
+        "description": study.description,
+        "study": json.dumps(described),
+        "fingerprint": study.fingerprint,
+        "singletrack": described["programs"]["singletrack"],
+        "numpy": np.__version__,
+        "coordinates": " ".join(v.name for v in study.designs.variations),
+    }

@@ -5,9 +5,6 @@ The file is checked in full before anything is computed; all that is wrong is sa
 
 from __future__ import annotations
 
-import dataclasses
-import hashlib
-import json
 import tomllib
 from dataclasses import dataclass
 from pathlib import Path
@@ -23,8 +20,8 @@ from singletrack.library import load_bicycle, load_rider, shipped
 from singletrack.parameters import Bicycle, Rider
 from singletrack.posture import Options
 from singletrack.sweep.designs import Designs, make_designs
+from singletrack.sweep.provenance import fingerprint_of, options_values, programs, record_values
 from singletrack.sweep.vary import parse_variation
-from singletrack.version import __version__
 
 __all__ = ["KEEP", "Study", "load_study"]
 
@@ -63,10 +60,11 @@ class Study:
 
     Attributes
     ----------
-    name, description, posture : str
-    shoulder : str or None
+    name, description : str
     bicycle : Bicycle
     rider : Rider or None
+    options : Options
+        How the rider sits.
     designs : Designs
         The parameters that vary.
     speeds : array, shape (n,)
@@ -79,26 +77,23 @@ class Study:
     description: str
     bicycle: Bicycle
     rider: Rider | None
-    posture: str
-    shoulder: str | None
+    options: Options
     designs: Designs
     speeds: np.ndarray
     keep: tuple[str, ...]
 
     @property
-    def options(self) -> Options:
-        """How the rider sits."""
-        return Options(self.posture, self.shoulder)
+    def posture(self) -> str:
+        """The rider's posture."""
+        return self.options.posture
 
     def to_dict(self) -> dict[str, Any]:
-        """Return all that determines the results, for provenance: plain values, SI units."""
-        rider = None if self.rider is None else _record_values(self.rider)
+        """Return all that decides the results and their places, for provenance: plain values, SI units."""
         return {
-            "singletrack": __version__,
-            "bicycle": _record_values(self.bicycle),
-            "rider": rider,
-            "posture": self.posture,
-            "shoulder": self.shoulder,
+            "programs": programs(),
+            "bicycle": record_values(self.bicycle),
+            "rider": None if self.rider is None else record_values(self.rider),
+            "options": options_values(self.options),
             "designs": self.designs.to_dict(),
             "speeds": self.speeds.tolist(),
             "keep": list(self.keep),
@@ -106,15 +101,8 @@ class Study:
 
     @property
     def fingerprint(self) -> str:
-        """Hash of :meth:`to_dict`: equal for studies with equal results."""
-        return hashlib.sha256(json.dumps(self.to_dict(), sort_keys=True).encode()).hexdigest()
-
-
-def _record_values(record: Bicycle | Rider) -> dict[str, Any]:
-    values: dict[str, Any] = {name: float(value) for name, value in record.values().items()}
-    if isinstance(record, Rider) and record.shapes:
-        values["shapes"] = {name: dataclasses.asdict(shape) for name, shape in record.shapes.items()}
-    return {"name": record.name, **values}
+        """Hash of :meth:`to_dict`: equal for studies with equal results, each in its place."""
+        return fingerprint_of(self.to_dict())
 
 
 def load_study(path: str | Path) -> Study:
@@ -131,7 +119,11 @@ def load_study(path: str | Path) -> Study:
         One line for each thing that is wrong: file, line, entry, what was found and what is allowed.
     """
     path = Path(path)
-    if not path.exists():
+    try:
+        there = path.exists()
+    except (OSError, ValueError):  # a name too long, or with a NUL
+        there = False
+    if not there:
         raise InputError(f"{path}: there is no such study file")
     text = read_text(path)
     try:
@@ -164,8 +156,7 @@ def _resolved(file: _StudyFile, path: Path, text: str) -> Study:
         description=file.description,
         bicycle=bicycle,
         rider=rider,
-        posture=file.posture,
-        shoulder=file.shoulder,
+        options=Options(file.posture, file.shoulder),
         designs=designs,
         speeds=_speeds(file.speeds, _place(path, text, ("speeds",))),
         keep=tuple(name for name in KEEP if name in file.keep),

@@ -17,7 +17,7 @@ _ENTRIES = {"range": ("from", "to", "count"), "uniform": ("from", "to"), "normal
 _SHAPES = (
     'a list of values, { from, to, count }, { from, to } (uniform) or { distribution = "normal", mean, deviation }'
 )
-_MOST = 10_000_000
+_MOST = 1_000_000
 
 
 def parse_variation(name: str, found: Any, place: str, *, with_rider: bool) -> Variation:

@@ -1,48 +1,82 @@
-"""The kernel of :mod:`singletrack.linear.quartic` compiled by numba: the same functions, the same bits, sooner."""
+"""The kernel of :mod:`singletrack.linear.quartic` compiled by numba: the same functions, the same bits, sooner.
+
+The kernel's plain functions are registered with numba as they are; what is compiled is a loop over numbers in blocks.
+The machine code is kept on disk for the next process where there is a place to write to, and made anew where not (an
+installation that cannot be written to, no home folder).
+"""
 
 from __future__ import annotations
 
-from types import FunctionType
+import hashlib
+import math
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numba
+import numpy as np
+from numba.extending import overload
 
-from singletrack.linear.quartic import solve as quartic
+from singletrack.linear.quartic import kernel
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
 __all__ = ["roots_into"]
 
-_PARTS = (
-    "_where",
-    "_sqrt",
-    "_cubic_start",
-    "_resolvent_root",
-    "_newton_step",
-    "_reproduces",
-    "factor",
-    "_quadratic_roots",
-    "_sort_two",
-    "ordered_roots",
-)
+# Division as NumPy does it: no exceptions, hence no branches. No fast-math: the bits stay NumPy's.
+_OPTIONS: Any = {"error_model": "numpy", "nogil": True}
+_INLINE: Any = {**_OPTIONS, "forceinline": True}
+
+
+def _where(condition: bool, yes: float, no: float) -> float:
+    return yes if condition else no
+
+
+def _sqrt(x: float) -> float:
+    return math.sqrt(x)
+
+
+def _register(function: Callable[..., Any]) -> None:
+    """Tell numba to compile a plain function where compiled code calls it."""
+    overload(function, jit_options=_INLINE, strict=False)(lambda *_: function)
+
+
+def _block_loop(stamp: str) -> Callable[..., None]:
+    """Return the loop over numbers. The stamp of the kernel's source is part of the key of what is kept on disk."""
+    factor, ordered_roots = kernel.factor, kernel.ordered_roots
+
+    def loop(roots: np.ndarray, good: np.ndarray, b: np.ndarray, c: np.ndarray, d: np.ndarray, e: np.ndarray) -> None:
+        # The inner loop has no branches, so that the compiler uses the processor's vector instructions; real and
+        # imaginary parts are interleaved afterwards.
+        parts = np.empty((9, 256))
+        _ = stamp
+        for start in range(0, len(b), 256):
+            n = min(256, len(b) - start)
+            for k in range(n):
+                i = start + k
+                p1, q1, p2, q2, is_good = factor(b[i], c[i], d[i], e[i], _where, _sqrt)
+                r = ordered_roots(p1, q1, p2, q2, _where, _sqrt)
+                parts[0, k], parts[1, k], parts[2, k], parts[3, k] = r[0], r[1], r[2], r[3]
+                parts[4, k], parts[5, k], parts[6, k], parts[7, k] = r[4], r[5], r[6], r[7]
+                parts[8, k] = 1.0 if is_good else 0.0
+            for k in range(n):
+                i = start + k
+                for j in range(4):
+                    roots[i, j] = complex(parts[j, k], parts[j + 4, k])
+                good[i] = parts[8, k] > 0.0
+
+    return loop
 
 
 def _compile() -> Callable[..., None]:
-    """Return ``quartic._blocks_into`` compiled, with all that it calls; kept on disk for the next process."""
-    names = dict(vars(quartic))
-    for name in _PARTS:
-        original = getattr(quartic, name)
-        copy = FunctionType(original.__code__, names, name, original.__defaults__)
-        names[name] = _jit(copy, inline="always")
-    kernel = FunctionType(quartic._blocks_into.__code__, names, "_blocks_into")  # noqa: SLF001
-    compiled: Callable[..., None] = _jit(kernel, cache=True)
+    for function in (*(getattr(kernel, name) for name in kernel.__all__), _where, _sqrt):
+        _register(function)
+    loop = _block_loop(hashlib.sha256(Path(kernel.__file__).read_bytes()).hexdigest())
+    try:
+        compiled: Callable[..., None] = numba.njit(loop, cache=True, **_OPTIONS)
+    except RuntimeError:  # no place to keep it
+        compiled = numba.njit(loop, **_OPTIONS)
     return compiled
-
-
-def _jit(function: FunctionType, **options: Any) -> Any:
-    # Division as NumPy does it: no exceptions, hence no branches. No fast-math: the bits stay NumPy's.
-    return numba.njit(error_model="numpy", nogil=True, **options)(function)
 
 
 roots_into = _compile()

@@ -6,12 +6,15 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from singletrack.linear.quartic.solve import factor, ordered_roots
+from singletrack.linear.quartic.kernel import factor, ordered_roots
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from singletrack.arrays import Array
+
+#: Relative difference between the product of LAPACK's refined roots and the quartic that rounding explains.
+_ROUNDING = 1e-13
 
 __all__ = ["horner", "refined", "solve_again"]
 
@@ -21,6 +24,7 @@ def solve_again(b: np.ndarray, c: np.ndarray, d: np.ndarray, e: np.ndarray) -> n
 
     Roots of very different size only need more of Newton's steps; for those that (nearly) meet, LAPACK finds the
     eigenvalues of the companion matrix, and these are refined until each is exact for coefficients changed by rounding.
+    Here, too, the product of the roots' factors is compared with the quartic: what it does not reproduce becomes NaN.
     """
     with np.errstate(all="ignore"):
         p1, q1, p2, q2, good = factor(b, c, d, e, np.where, np.sqrt, newton_steps=12)
@@ -37,8 +41,13 @@ def _solve_by_lapack(b: np.ndarray, c: np.ndarray, d: np.ndarray, e: np.ndarray)
     monic = np.where(finite[:, None], np.stack([b, c, d, e], axis=-1), 0.0)
     companion = np.zeros((len(b), 4, 4))
     companion[:, range(1, 4), range(3)] = 1.0
+    # In units in which no coefficient exceeds one, a power of two: numbers far out of range come back in, bits stay.
+    with np.errstate(divide="ignore"):
+        exponents = np.where(monic == 0, -np.inf, np.frexp(monic)[1] / np.arange(1, 5))
+    unit = np.ceil(np.max(np.where(np.isfinite(exponents), exponents, -1074.0), axis=1, keepdims=True)).astype(int)
+    monic = np.ldexp(monic, -unit * np.arange(1, 5))
     companion[:, 0, :] = -monic
-    roots = np.sort_complex(np.linalg.eigvals(companion).astype(complex))
+    found = roots = np.sort_complex(np.linalg.eigvals(companion).astype(complex))
     # Each root's conjugate among the four: refined together, they stay conjugates.
     partner = np.argmin(np.abs(roots[:, :, None] - roots[:, None, :].conj()), axis=-1)
     upper, real = roots.imag > 0, roots.imag == 0
@@ -47,7 +56,25 @@ def _solve_by_lapack(b: np.ndarray, c: np.ndarray, d: np.ndarray, e: np.ndarray)
             moved, done = refined(roots, tuple(monic.T), np.where)
             moved = np.where(real, moved.real, np.where(upper, moved, np.take_along_axis(moved, partner, 1).conj()))
             roots = np.where(np.isfinite(moved) & ~done, moved, roots)
-    return np.where(finite[:, None], np.sort_complex(roots), np.nan)
+        # Three roots nearly equal, each refined by itself, may no longer be right together, as LAPACK's are.
+        roots = np.where(_reproduced(roots, monic)[:, None], roots, found)
+        sound = finite & _reproduced(roots, monic)
+        factor = np.ldexp(1.0, unit)
+        return np.where(sound[:, None], np.sort_complex(roots) * factor, np.nan)
+
+
+def _reproduced(roots: np.ndarray, monic: np.ndarray) -> np.ndarray:
+    """Tell of which quartics (m,) the product of the roots' factors is the quartic, to a few roundings of its terms."""
+    product, size = np.ones((len(roots), 1), dtype=complex), np.ones((len(roots), 1))
+    for k in range(4):
+        longer = np.pad(product, ((0, 0), (0, 1)))
+        longer[:, 1:] -= roots[:, k, None] * product
+        product = longer
+        terms = np.pad(size, ((0, 0), (0, 1)))
+        terms[:, 1:] += np.abs(roots[:, k, None]) * size
+        size = terms
+    sound: np.ndarray = (np.abs(product[:, 1:] - monic) <= _ROUNDING * size[:, 1:]).all(axis=1)
+    return sound
 
 
 def refined(s: Array, coefficients: tuple[Array, ...], where: Callable[..., Array]) -> tuple[Array, Array]:

@@ -1,4 +1,4 @@
-"""Roots of quartics as JAX arrays: :mod:`singletrack.linear.quartic.solve` with exact first derivatives.
+"""Roots of quartics as JAX arrays: :mod:`singletrack.linear.quartic.kernel` with exact first derivatives.
 
 The roots are found as for NumPy, and differentiated implicitly: of p(s; b, c, d, e) = 0 follows p' ds = -∂p. Where
 NumPy calls LAPACK, which JAX has not on every device, the roots are iterated together (Ehrlich and Aberth).
@@ -13,7 +13,7 @@ import jax.numpy as jnp
 
 from singletrack.arrays import require_double
 from singletrack.linear.quartic.hard import horner, refined
-from singletrack.linear.quartic.solve import factor, ordered_roots
+from singletrack.linear.quartic.kernel import factor, ordered_roots
 
 __all__ = ["quartic_roots"]
 

@@ -49,6 +49,16 @@ def _refuse_batches(*records: Bicycle | Rider | None) -> None:
                 )
 
 
+def _refuse_skates(bicycle: Bicycle) -> None:
+    for name in ("rear_wheel_radius", "front_wheel_radius"):
+        if getattr(bicycle, name) == 0:
+            raise InputError(
+                f"{bicycle.name}: {name} = 0 m, must be greater than zero: the multibody engine rolls wheels "
+                "(the closed form takes skates)",
+                parameters=(name,),
+            )
+
+
 def _solid(numbers: Numbers, name: str, solid: Solid) -> Body:
     return Body(
         name,
@@ -138,6 +148,7 @@ def bicycle_model(bicycle: Bicycle, rider: Rider | None = None, options: Options
     ('lean', 'steer', 'rear wheel')
     """
     _refuse_batches(bicycle, rider)
+    _refuse_skates(bicycle)
     options = Options.of(options)
     if rider is None:
         options.require_rider()

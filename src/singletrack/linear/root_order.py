@@ -1,9 +1,9 @@
-"""Slots: a fixed order of four roots, in which following a mode is bookkeeping.
+"""A fixed order of four roots, in which following a mode is bookkeeping.
 
 Real roots come first, ascending, then pairs (positive imaginary part first), ascending by real part. Within an
-interval between meetings a slot belongs to one mode. Two pairs pass each other at most once; below that speed they are
-taken in descending order (``descending``), so that slots stay with their modes. A pair keeps in mind which of its modes
-was the lower one while both were real: when it splits again, order is as before.
+interval between meetings a place in this order belongs to one mode. Two pairs pass each other at most once; below that
+speed they are taken in descending order (``descending``), so that places stay with their modes. A pair keeps in mind
+which of its modes was the lower one while both were real: when it splits again, order is as before.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ def real_count(roots: np.ndarray) -> np.ndarray:
 
 
 def arrange(roots: np.ndarray, count: np.ndarray, descending: np.ndarray) -> np.ndarray:
-    """Return roots (..., 4) in slots, as if ``count`` (...) of them were real.
+    """Return roots (..., 4) in their order, as if ``count`` (...) of them were real.
 
     Right at a meeting rounding may show two nearly equal real roots as a pair or the reverse; then the pair nearest to
     the real axis counts as real, or the two nearest real roots as a pair. Nothing is lost: the result is a permutation.
@@ -78,10 +78,10 @@ def _remaining(taken: np.ndarray) -> np.ndarray:
 
 
 def label_at_infinity(p: CharacteristicPolynomial, count: np.ndarray) -> np.ndarray:
-    """Return the column of each slot (m, 4) above the last meeting, where ``count`` (m,) roots are real.
+    """Return the column of each place (m, 4) above the last meeting, where ``count`` (m,) roots are real.
 
     As v grows, s = σ v for three roots, with the cubic a4 σ³ + a3 σ² + a2' σ + a1' (primes: the parts that grow), and
-    the fourth, capsize, stays bounded: among the real slots it comes after the negative roots of the cubic.
+    the fourth, capsize, stays bounded: among the real roots it comes after the negative roots of the cubic.
     """
     cubic = np.stack([p.a4[:, 0], p.a3[:, 0], p.a2[:, 1], p.a1[:, 1]], axis=-1)
     mirrored = cubic * np.array([-1.0, 1.0, -1.0, 1.0])  # its positive roots are the negative ones of the cubic
@@ -100,12 +100,12 @@ def label_at_infinity(p: CharacteristicPolynomial, count: np.ndarray) -> np.ndar
 def label_below(
     labels: np.ndarray, above: np.ndarray, below: np.ndarray, at: np.ndarray, descending: np.ndarray
 ) -> np.ndarray:
-    """Return the column of each slot (m, 4) below a meeting.
+    """Return the column of each place (m, 4) below a meeting.
 
     Parameters
     ----------
     labels : array, shape (m, 4)
-        Columns of the slots above the meeting.
+        Columns of the places above the meeting.
     above, below : array, shape (m,)
         Number of real roots above and below.
     at : complex array, shape (m, 4)
@@ -137,7 +137,7 @@ def _take(labels: np.ndarray, orders: list[list[int]], which: np.ndarray) -> np.
 
 
 def _insert(labels: np.ndarray, before: np.ndarray) -> np.ndarray:
-    """Make the pair in slots 2 and 3 real, after ``before`` of the two real roots."""
+    """Make the pair in places 2 and 3 real, after ``before`` of the two real roots."""
     return _take(labels, [[2, 3, 0, 1], [0, 2, 3, 1], [0, 1, 2, 3]], before)
 
 

@@ -1,0 +1,154 @@
+"""The door to the commands: their names and help are here, their modules are imported when they are asked for.
+
+A new command is a module here with a function ``run``, whose parameters are its arguments and options, and a line in
+:data:`COMMANDS`.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import functools
+import importlib
+import inspect
+from typing import TYPE_CHECKING, Annotated, Any, get_type_hints
+
+import typer
+from typer.core import TyperCommand, TyperGroup
+
+from singletrack.errors import InputError
+from singletrack.present.terminal import open_streams
+from singletrack.version import __version__
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+__all__ = ["COMMANDS", "run"]
+
+#: Each command and what it does; its module has its name, with "_" for "-".
+COMMANDS = {
+    "reproduce": "Reproduce the paper: matrices, eigenvalues, figures, and a report that checks every printed number.",
+    "coefficients": "Print the coefficient matrices of the linear equations.",
+    "eigenvalues": "Print the eigenvalues at forward speeds, one column for each mode.",
+    "critical-speeds": "Print weave and capsize speeds and the stable ranges.",
+    "list": "List the bicycles and riders that come with the package.",
+    "show": "Print everything that follows from a bicycle or rider, with a drawing.",
+    "template": "Print a commented parameter file to fill in.",
+    "schema": "Print the JSON schema of a parameter file, for editors.",
+    "convert": "Read a bicycle or rider in any format and write it in another.",
+    "measure": "Turn pendulum periods, hanging angles and lengths into parameters with uncertainties.",
+    "period": "Fit a decaying oscillation to a recorded signal and print its period with its uncertainty.",
+    "sweep": "Compute many designs as a study file says; interrupted, the same command goes on.",
+}
+
+_SETTINGS = {"help_option_names": ["-h", "--help"]}
+# typer may carry a click of its own: take the base of its usage errors from itself.
+_UsageError: Any = next(base for base in typer.BadParameter.__mro__ if base.__name__ == "ClickException")
+
+
+class _Door(TyperGroup):
+    """A group that knows its commands by name and help, and imports a command's module when it is called."""
+
+    def __init__(self, **attributes: Any) -> None:
+        super().__init__(**attributes)
+        self.commands.update({name: TyperCommand(name, help=text) for name, text in COMMANDS.items()})
+
+    def resolve_command(self, ctx: Any, args: list[str]) -> tuple[str | None, Any, list[str]]:
+        name, command, rest = super().resolve_command(ctx, args)
+        return name, command and _command(str(name)), rest
+
+
+def _command(name: str) -> Any:
+    module = importlib.import_module(f"singletrack.commands.{name.replace('-', '_')}")
+    alone = typer.Typer(add_completion=False)
+    alone.command(name, help=COMMANDS[name], context_settings=_SETTINGS)(_flat(module.run))
+    return typer.main.get_command(alone)
+
+
+def _flat(function: Callable[..., None]) -> Callable[..., None]:
+    """Return a function whose parameters that are records (bundles of options) are replaced by the records' fields."""
+    hints = get_type_hints(function, include_extras=True)
+    flat: list[inspect.Parameter] = []
+    bundles: dict[str, tuple[Any, list[str]]] = {}
+    for parameter in inspect.signature(function).parameters.values():
+        record = hints[parameter.name]
+        if not dataclasses.is_dataclass(record):
+            flat.append(parameter.replace(annotation=record, kind=inspect.Parameter.KEYWORD_ONLY))
+            continue
+        kinds = get_type_hints(record, include_extras=True)
+        fields = {field.name: field.default for field in dataclasses.fields(record)}
+        bundles[parameter.name] = record, list(fields)
+        flat += [
+            inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=default, annotation=kinds[name])
+            for name, default in fields.items()
+        ]
+
+    @functools.wraps(function)
+    def call(**values: Any) -> None:
+        records = {
+            name: record(**{field: values.pop(field) for field in fields})
+            for name, (record, fields) in bundles.items()
+        }  # fmt: skip
+        function(**values, **records)
+
+    call.__signature__ = inspect.Signature(flat)  # type: ignore[attr-defined]
+    call.__annotations__ = {parameter.name: parameter.annotation for parameter in flat}
+    return call
+
+
+def _print_version(wanted: bool) -> None:
+    if wanted:
+        typer.echo(f"singletrack {__version__}")
+        raise typer.Exit
+
+
+_app = typer.Typer(
+    cls=_Door,
+    help="Lateral dynamics of bicycles with real riders, hands on the handlebar.",
+    invoke_without_command=True,
+    add_completion=False,
+    pretty_exceptions_enable=False,
+    context_settings=_SETTINGS,
+)
+
+
+@_app.callback()
+def _program(
+    context: typer.Context,
+    version: Annotated[
+        bool, typer.Option("--version", callback=_print_version, is_eager=True, help="Print the version.")
+    ] = False,
+) -> None:
+    if context.invoked_subcommand is None and not version:
+        typer.echo(context.get_help())
+
+
+def run(arguments: list[str]) -> int:
+    """Run a command.
+
+    Parameters
+    ----------
+    arguments : list of str
+        As after the program's name.
+
+    Returns
+    -------
+    int
+        The exit code; anything that goes wrong is raised.
+
+    Raises
+    ------
+    InputError
+        For arguments that are no command's.
+    """
+    open_streams()
+    program: Any = typer.main.get_command(_app)
+    try:
+        with program.make_context("singletrack", arguments) as context:
+            program.invoke(context)
+    except typer.Exit as end:
+        return end.exit_code
+    except typer.Abort:
+        raise KeyboardInterrupt from None
+    except _UsageError as error:
+        raise InputError(error.format_message()) from None
+    return 0

@@ -1,0 +1,160 @@
+"""The options of every command that makes a model, and the model that they ask for."""
+
+from __future__ import annotations
+
+import warnings
+from dataclasses import dataclass
+from enum import StrEnum
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from singletrack import closed_form, multibody
+from singletrack.body.reach import seat_oddities
+from singletrack.errors import InputError, OddityWarning, unknown_name
+from singletrack.library import load_bicycle, load_rider
+from singletrack.library.load import override
+from singletrack.parameters import Bicycle, Rider
+from singletrack.parameters.bicycle import FRAME_GEOMETRY
+from singletrack.parameters.plausibility import oddities
+from singletrack.posture import POSTURES, SHOULDERS, Options
+from singletrack.public import CoefficientMatrices
+
+if TYPE_CHECKING:
+    from singletrack.parameters.record import Record
+
+__all__ = ["Made", "ModelOptions", "model_from", "seated", "warn_of_oddities"]
+
+
+class EngineName(StrEnum):
+    """The two independent derivations."""
+
+    closed_form = "closed-form"
+    multibody = "multibody"
+
+
+@dataclass(frozen=True)
+class ModelOptions:
+    """The options of a command that makes a model: one parameter of its ``run``."""
+
+    rider: Annotated[
+        str | None, typer.Option("--rider", metavar="RIDER", help="A shipped name or a file; without: no rider.")
+    ] = None
+    posture: Annotated[
+        str, typer.Option("--posture", metavar="NAME", help=f"{', '.join(POSTURES)}; rigid: hands free.")
+    ] = POSTURES[0]
+    shoulder: Annotated[
+        str | None,
+        typer.Option(
+            "--shoulder",
+            metavar="NAME",
+            help=f"Second shoulder axis: {', '.join(SHOULDERS)}; by default as the posture has it.",
+        ),
+    ] = None
+    engine: Annotated[EngineName, typer.Option("--engine", help="Which derivation to use.")] = EngineName.closed_form
+    settings: Annotated[
+        list[str] | None,
+        typer.Option("--set", metavar="NAME=VALUE", help='Change a parameter, e.g. "steer_axis_tilt=18.5 deg".'),
+    ] = None
+
+    @property
+    def sitting(self) -> Options:
+        """How the rider sits, as the makers of models take it."""
+        return Options(self.posture, self.shoulder)
+
+
+@dataclass(frozen=True)
+class Made:
+    """A model, what it was made from, and a heading that says so."""
+
+    model: CoefficientMatrices
+    bicycle: Bicycle
+    rider: Rider | None
+    title: str
+
+
+def model_from(bicycle: str, options: ModelOptions) -> Made:
+    """Return the model that a command's arguments ask for, after warning of what looks odd.
+
+    Parameters
+    ----------
+    bicycle : str
+        A shipped name or a file.
+    options : ModelOptions
+
+    Raises
+    ------
+    SingletrackError
+        If there is no such thing, or a value is not allowed.
+    """
+    record, rider, changed = seated(load_bicycle(bicycle), options)
+    derive = multibody.coefficients if options.engine is EngineName.multibody else closed_form.coefficients
+    model = CoefficientMatrices.of(derive(record, rider, options.sitting))
+    rider = None if rider is None else rider.on(record)
+    warn_of_oddities(record, rider)
+    who = "" if rider is None else f" with {rider.name or 'rider'}, {options.posture}"
+    return Made(model, record, rider, f"{record.name}{who}{changed}")
+
+
+def seated(bicycle: Bicycle, options: ModelOptions) -> tuple[Bicycle, Rider | None, str]:
+    """Return bicycle and rider with what ``--set`` changes, and the changes in words, for headings.
+
+    Parameters
+    ----------
+    bicycle : Bicycle
+        As loaded.
+    options : ModelOptions
+
+    Raises
+    ------
+    SingletrackError
+        If a name is unknown or given twice, or a value is not allowed.
+    """
+    rider = None if options.rider is None else load_rider(options.rider)
+    changes = _changes(options.settings)
+    own = bicycle.descriptions()
+    theirs = Rider.descriptions()
+    for name in changes:
+        if rider is None and name in theirs:
+            raise InputError(f"--set {name}: is a parameter of a rider, and there is no --rider")
+        if name not in own and name not in theirs:
+            raise InputError(f"--set: {unknown_name('parameter', name, [*own, *(theirs if rider else [])])}")
+        if rider is None and name in FRAME_GEOMETRY:
+            _warn(f"--set {name}: changes nothing without a --rider (frame geometry says where a rider sits)")
+    bicycle = override(bicycle, {name: text for name, text in changes.items() if name in own})
+    if rider is not None:
+        rider = override(rider, {name: text for name, text in changes.items() if name not in own})
+    return bicycle, rider, "".join(f", {name} = {text}" for name, text in changes.items())
+
+
+def _changes(settings: list[str] | None) -> dict[str, str]:
+    changes: dict[str, str] = {}
+    for setting in settings or []:
+        name, sign, value = setting.partition("=")
+        name, value = name.strip(), value.strip()
+        if not sign or not value:
+            raise InputError(f"--set {setting!r}: found no value; must be NAME=VALUE, e.g. --set trail=0.06")
+        if name in changes:
+            raise InputError(f"--set {name}: is given twice, as {changes[name]!r} and as {value!r}")
+        changes[name] = value
+    return changes
+
+
+def warn_of_oddities(record: Record, rider: Rider | None = None) -> None:
+    """Warn of whatever looks odd about a bicycle or rider, or about a rider on a bicycle.
+
+    Parameters
+    ----------
+    record : Bicycle or Rider
+    rider : Rider, optional
+        Seated on the bicycle.
+    """
+    found = list(oddities(record, rider))
+    if rider is not None and isinstance(record, Bicycle):
+        found += seat_oddities(record, rider)
+    for oddity in found:
+        _warn(str(oddity))
+
+
+def _warn(text: str) -> None:
+    warnings.warn(text, OddityWarning, stacklevel=3)

@@ -1,0 +1,50 @@
+"""``singletrack period``."""
+
+from __future__ import annotations
+
+import io
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from singletrack.commands.printing import deliver, show
+from singletrack.errors import InputError
+from singletrack.files.signals import read_signal
+from singletrack.files.source import read_text
+from singletrack.measuring.oscillation import fit_oscillation
+from singletrack.output import check_writable
+from singletrack.present.oscillation import oscillation_figure
+
+if TYPE_CHECKING:
+    from singletrack.measuring.oscillation import Oscillation
+
+__all__ = ["run"]
+
+_FIGURES = (".png", ".svg", ".pdf")
+
+
+def run(
+    file: Annotated[Path, typer.Argument(metavar="FILE", help="Two columns: time in s, signal.")],
+    plot: Annotated[Path | None, typer.Option(help="Draw signal and fit here: .png, .svg or .pdf.")] = None,
+) -> None:
+    """Fit a decaying oscillation to a recorded signal and print its period with its standard deviation."""
+    if plot is not None:
+        if plot.suffix.lower() not in _FIGURES:
+            raise InputError(f"{plot}: unknown suffix {plot.suffix!r}, must be one of {', '.join(_FIGURES)}")
+        check_writable(plot)
+    if not file.exists():
+        raise InputError(f"{file}: there is no such file")
+    fit = fit_oscillation(*read_signal(read_text(file), str(file)), str(file))
+    show(f"period: {fit.period:.9g} ± {fit.period_deviation:.2g} s")
+    show(f"without damping: {fit.natural_period:.9g} s")
+    show(f"decay: {fit.decay:.4g} ± {fit.decay_deviation:.2g} 1/s")
+    show(f"for the measurements' file: {fit.natural_period!r}+/-{fit.period_deviation!r}")
+    if plot is not None:
+        deliver(_drawn(fit, file.stem, plot), plot)
+
+
+def _drawn(fit: Oscillation, title: str, plot: Path) -> bytes:
+    content = io.BytesIO()
+    oscillation_figure(fit, title).savefig(content, format=plot.suffix.lower().removeprefix("."))
+    return content.getvalue()

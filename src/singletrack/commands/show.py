@@ -1,0 +1,33 @@
+"""``singletrack show``."""
+
+from __future__ import annotations
+
+from singletrack.commands.model import ModelOptions, model_from, warn_of_oddities
+from singletrack.commands.options import ThingArgument
+from singletrack.errors import InputError
+from singletrack.library.load import load_any
+from singletrack.parameters import Rider
+from singletrack.present.printing import print_record, print_results
+from singletrack.present.sketch import side_view
+from singletrack.present.terminal import Terminal, Words
+
+__all__ = ["run"]
+
+
+def run(name: ThingArgument, options: ModelOptions) -> None:
+    """Print everything that follows from a bicycle or a rider, with a drawing."""
+    record = load_any(name)
+    console = Terminal()
+    if isinstance(record, Rider):
+        if options.rider is not None:
+            raise InputError(f"{name}: is a rider, must be a bicycle to seat {options.rider} on")
+        warn_of_oddities(record)
+        print_record(console, record)
+        return
+    made = model_from(name, options)
+    console.print(side_view(made.bicycle, made.rider))
+    console.print(Words("centres of mass: R rear wheel, B rear frame, H front frame, F front wheel\n", "dim"))
+    print_record(console, made.bicycle)
+    if made.rider is not None:
+        print_record(console, made.rider)
+    print_results(console, made.bicycle, made.rider, options.sitting)

@@ -1,0 +1,166 @@
+"""The terminal: names are data there, whatever they hold, and every text can be read on every terminal.
+
+No markup is read from any text, control characters are shown and never sent, and where a terminal's encoding lacks a
+character, a readable one stands in its place.
+"""
+
+from __future__ import annotations
+
+import codecs
+import sys
+import unicodedata
+from typing import TYPE_CHECKING, Any
+
+from rich.console import Console
+from rich.measure import Measurement
+
+if TYPE_CHECKING:
+    from rich.console import ConsoleOptions, RenderResult
+    from rich.text import Text
+
+__all__ = ["Terminal", "Words", "open_streams", "printable", "readable", "say"]
+
+# What stands for a character that an encoding lacks.
+_READABLE = {
+    "²": "^2",
+    "³": "^3",
+    "±": "+/-",
+    "·": "*",
+    "×": "x",
+    "°": " deg",
+    "−": "-",
+    "–": "-",
+    "—": "-",
+    "…": "...",
+    "’": "'",
+    "“": '"',
+    "”": '"',
+    "Δ": "d",
+    "λ": "lambda",
+    "π": "pi",
+    "φ": "phi",
+    "δ": "delta",
+}
+# Invisible characters that move or reorder what follows them.
+_HIDDEN = {"Cc", "Cf", "Cs", "Zl", "Zp"}
+_ERRORS = "singletrack.readable"
+_WIDEST = 1000
+
+
+def printable(text: str) -> str:
+    r"""Return a text with every control character but line ends and tabs shown, as Python would write it.
+
+    >>> printable("a\x1b[31mb")
+    'a\\x1b[31mb'
+    """
+    if text.isascii() and text.isprintable():
+        return text
+    return "".join(
+        c if c in "\n\t" or unicodedata.category(c) not in _HIDDEN else c.encode("unicode_escape").decode()
+        for c in text
+    )
+
+
+def readable(text: str, encoding: str) -> str:
+    """Return a text that an encoding can hold, with readable characters for those that it lacks.
+
+    >>> readable("kg m², 1 ± 2", "ascii")
+    'kg m^2, 1 +/- 2'
+    """
+    try:
+        text.encode(encoding)
+    except UnicodeEncodeError:
+        return "".join(_stand_in(c, encoding) for c in text)
+    return text
+
+
+def _stand_in(character: str, encoding: str) -> str:
+    try:
+        character.encode(encoding)
+    except UnicodeEncodeError:
+        if 0x2800 <= ord(character) <= 0x28FF:  # a braille drawing: as dark as the number of its dots
+            return " ..::oo##"[(ord(character) - 0x2800).bit_count()]
+        plain = unicodedata.normalize("NFKD", character).encode("ascii", "ignore").decode()
+        return _READABLE.get(character) or plain or "?"
+    return character
+
+
+def _replace_unwritable(error: UnicodeError) -> tuple[str, int]:
+    if not isinstance(error, UnicodeEncodeError):
+        raise error
+    part = error.object[error.start : error.end]
+    return "".join(_stand_in(printable(c), error.encoding) for c in part), error.end
+
+
+codecs.register_error(_ERRORS, _replace_unwritable)
+
+
+def open_streams() -> None:
+    """Let the standard streams write readable characters for those that their encoding lacks, instead of failing."""
+    for stream in (sys.stdout, sys.stderr):
+        reconfigure = getattr(stream, "reconfigure", None)
+        if reconfigure is not None:
+            reconfigure(errors=_ERRORS)
+
+
+def say(text: str) -> None:
+    """Write a text and a line end to standard error; nothing happens where nobody can read it."""
+    try:
+        print(printable(text), file=sys.stderr, flush=True)  # noqa: T201  # this is where lines are said
+    except (OSError, ValueError):  # closed
+        return
+
+
+class Words:
+    """A text with a style, in a table or alone.
+
+    Attributes
+    ----------
+    text : str
+    style : str
+        As rich writes it, e.g. "bold red".
+    """
+
+    def __init__(self, text: str, style: str = "") -> None:
+        self.text, self.style = text, style
+
+    def __rich_console__(self, console: Console, options: ConsoleOptions) -> RenderResult:
+        yield console.render_str(self.text, style=self.style)
+
+    def __rich_measure__(self, console: Console, options: ConsoleOptions) -> Measurement:
+        return Measurement.get(console, options, console.render_str(self.text))
+
+
+class Terminal(Console):
+    """A rich console that reads no markup, sends no control character of a text, and cuts nothing off.
+
+    What is wider than the terminal goes on behind its edge or in its next line, as the terminal has it: a number that
+    is cut off reads as another number.
+
+    Parameters
+    ----------
+    stderr : bool
+        Write to standard error instead of standard output.
+    **options
+        As for :class:`rich.console.Console`.
+    """
+
+    def __init__(self, *, stderr: bool = False, **options: Any) -> None:
+        super().__init__(stderr=stderr, markup=False, emoji=False, highlight=False, **options)
+
+    def render_str(self, text: str, **options: Any) -> Text:
+        """Return a text as data: cleaned, readable here, without markup (arguments as rich's, of which ``style``)."""
+        options |= {"markup": False, "emoji": False, "highlight": False}
+        return super().render_str(readable(printable(text), self.encoding), **options)
+
+    def print(self, *objects: Any, **options: Any) -> None:
+        """Print texts and tables (arguments as rich's)."""
+        roomy = self.options.update(width=_WIDEST)
+        widest = max((Measurement.get(self, roomy, each).minimum for each in objects), default=0)
+        texts = all(isinstance(each, str) for each in objects)
+        options = {"crop": False, "soft_wrap": texts, **options}
+        super().print(*objects, width=max(self.width, widest), **options)
+
+    def on_broken_pipe(self) -> None:
+        """Leave it to the command line to end as others do when nobody reads any more."""
+        raise BrokenPipeError
