@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from singletrack.library import load_bicycle, load_rider
     from singletrack.parameters import Bicycle, Rider
     from singletrack.public import CoefficientMatrices, coefficients
+    from singletrack.webpage import page
 
 __all__ = [
     "Bicycle",
@@ -29,6 +30,7 @@ __all__ = [
     "coefficients",
     "load_bicycle",
     "load_rider",
+    "page",
 ]
 
 # Where each public name lives; loaded on first use, so that `import singletrack` stays light.
@@ -39,6 +41,7 @@ _LAZY = {
     "coefficients": "singletrack.public",
     "load_bicycle": "singletrack.library",
     "load_rider": "singletrack.library",
+    "page": "singletrack.webpage",
 }
 
 

@@ -99,8 +99,8 @@ export class Chart {
       for (const name of set.names) {
         const [stroke, width] = [colourOf(name), which === 0 ? 2 : 1];
         const dash = which === 0 ? undefined : PINNED_DASHES[(which - 1) % 3];
-        series.push({ label: `Re ${name}`, stroke, width, dash, points: { show: false } });
-        series.push({ label: `Im ${name}`, stroke, width, dash: dash ?? [6, 4], points: { show: false } });
+        series.push({ label: `Re ${name}`, stroke, width, dash, points: { show: false }, pxAlign: 0 });
+        series.push({ label: `Im ${name}`, stroke, width, dash: dash ?? [6, 4], points: { show: false }, pxAlign: 0 });
       }
     });
     const axis = { stroke: COLOURS.text, grid: { stroke: COLOURS.grid, width: 1 }, ticks: { stroke: COLOURS.grid } };
@@ -117,6 +117,17 @@ export class Chart {
       padding: [26, 12, 0, 0],
       hooks: { drawClear: [(plot) => this.shade(plot)], draw: [(plot) => this.mark(plot)] },
     };
+  }
+
+  /** Names of the modes in a row at the bottom, in their colours. */
+  private nameCurves(plot: uPlot): void {
+    const { ctx, bbox } = plot;
+    let left = bbox.left + 8 * devicePixelRatio;
+    for (const name of new Set((this.curves as Curves).names)) {
+      ctx.fillStyle = colourOf(name);
+      ctx.fillText(name, left, bbox.top + bbox.height - 5 * devicePixelRatio);
+      left += ctx.measureText(name).width + 14 * devicePixelRatio;
+    }
   }
 
   private shade(plot: uPlot): void {
@@ -166,6 +177,7 @@ export class Chart {
       ctx.fillText(text, left, bbox.top - row - 2 * ratio);
       if (row === 0) right = left + width;
     }
+    this.nameCurves(plot);
     line(plot.valToPos(this.speed, "x", true), COLOURS.text, [], 1.5);
     ctx.strokeStyle = COLOURS.text;
     ctx.lineWidth = ratio;

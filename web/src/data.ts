@@ -51,6 +51,8 @@ export type Program = (inputs: ArrayLike<number>, outputs: Float64Array) => void
 
 export const DESCRIPTIONS = manifest.parameters as Description[];
 export const VARIANTS = manifest.variants as Variant[];
+/** Share by which a principal moment may exceed the sum of the other two: room for measurement errors. */
+export const FLATNESS = manifest.flatness as number;
 export const WORDS = manifest.allowed as Record<string, string>;
 
 export function program(name: string): Program {

@@ -1,6 +1,6 @@
 /** A design: bicycle, rider, how the rider sits, speed, and what was changed. Plain data, compared and stored as such. */
 
-import { DESCRIPTIONS, describe, findVariant, given, type ParameterRecord, type Values, type Variant, WORDS } from "./data";
+import { DESCRIPTIONS, describe, findVariant, FLATNESS, given, type ParameterRecord, type Values, type Variant, WORDS } from "./data";
 
 export interface Design {
   bicycle: string;
@@ -81,6 +81,23 @@ export function faultOf(values: Values, names: string[]): string {
       (kind !== "above ground" || value < 0) &&
       (kind !== "fraction" || (value > 0 && value < 1));
     if (!good) return `${name} = ${value} ${description.unit}, must be ${WORDS[kind] ?? "a finite number"}`;
+  }
+  return BODIES.map((body) => inertiaFault(values, body)).find((fault) => fault !== "") ?? "";
+}
+
+const BODIES = ["rear_frame", "front_frame", "rear_wheel", "front_wheel"];
+
+/** What no distribution of mass has: an inertia that is not positive, or breaks the triangle inequality. */
+function inertiaFault(values: Values, body: string): string {
+  const of = (axes: string) => values[`${body}_inertia_${axes}`];
+  const [xx, yy, zz, xz] = [of("xx"), of("yy"), of("zz") ?? of("xx"), of("xz") ?? 0];
+  const [mean, half] = [(xx + zz) / 2, Math.hypot((xx - zz) / 2, xz)];
+  const [small, large] = [mean - half, mean + half];
+  const slack = 1 + FLATNESS;
+  if (large === 0 && yy === 0) return ""; // a body without inertia: a skate
+  if (!(small > 0)) return `${body}_inertia is no body's: its smallest moment is ${small.toPrecision(4)} kg m²`;
+  if (yy > slack * (small + large) || large > slack * (yy + small)) {
+    return `${body}_inertia is no body's: one principal moment exceeds the sum of the other two`;
   }
   return "";
 }

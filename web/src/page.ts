@@ -15,6 +15,7 @@ import { VARIANTS } from "./data";
 import { readable } from "./units";
 
 const MOST_PINS = 3;
+const FIRST = ["bicycle", "rider", "posture", "arms", "torso_lean"];
 const KMH = 3.6;
 
 export class Page {
@@ -67,7 +68,9 @@ export class Page {
   /** Sets several things at once; what cannot be is said, and the last possible design stays. */
   change(changes: Record<string, unknown>, remember = true): void {
     const wanted: Design = { ...this.design };
-    const refused = Object.entries(changes).filter(([name, value]) => !assign(wanted, name, value));
+    // What others depend on comes first, in whichever order it was said.
+    const names = [...FIRST.filter((name) => name in changes), ...Object.keys(changes).filter((name) => !FIRST.includes(name))];
+    const refused = names.map((name): [string, unknown] => [name, changes[name]]).filter(([name, value]) => !assign(wanted, name, value));
     if (refused.length) {
       this.say(refused.map(([name, value]) => `${name} = ${JSON.stringify(value)} cannot be set`).join("; "));
       if (refused.length === Object.keys(changes).length) return;

@@ -39,6 +39,7 @@ export class Ride {
     this.found = found;
     this.roots = roots;
     if (rebuilt) this.scene.build(found.values, this.points([]));
+    this.scene.stale = true;
     this.begin();
     this.showChoices();
   }
@@ -109,6 +110,7 @@ export class Ride {
     this.last = now;
     if (this.found === null || this.motion === null) return;
     if (this.playing) this.advance(step);
+    else if (!this.scene.stale) return; // a still picture is drawn once: a phone's battery is small
     const { angles } = at(this.motion, this.time);
     const [lean, ...others] = angles;
     const pose = { points: this.points(others), lean, steer: others[0] ?? 0, ...this.place };

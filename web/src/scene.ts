@@ -65,6 +65,8 @@ export class Scene {
   private head: THREE.Mesh | null = null;
   private values: Values = {};
   follows = true;
+  /** Whether something has changed since the last drawing. */
+  stale = true;
 
   constructor(private readonly canvas: HTMLCanvasElement) {
     this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true, alpha: true });
@@ -72,6 +74,8 @@ export class Scene {
     this.camera.position.set(0.4, 1.5, 4.2);
     this.orbit = new OrbitControls(this.camera, canvas);
     this.orbit.target.set(0.5, 0.75, 0);
+    this.orbit.addEventListener("change", () => (this.stale = true));
+    new ResizeObserver(() => (this.stale = true)).observe(canvas);
     this.orbit.enablePan = false;
     this.orbit.minDistance = 1;
     this.orbit.maxDistance = 20;
@@ -185,6 +189,7 @@ export class Scene {
     this.orbit.update();
     this.fit();
     this.renderer.render(this.scene, this.camera);
+    this.stale = false;
   }
 
   private moveBodies(points: Float64Array): void {

@@ -1,6 +1,6 @@
 """The programs of the page: equations and moved skeletons, traced from this package into straight-line JavaScript.
 
-Run as ``python -m singletrack.page.generate FOLDER`` it writes ``programs.js`` and ``manifest.json``; the page has no other
+Run as ``python -m singletrack.webpage.generate FOLDER`` it writes ``programs.js`` and ``manifest.json``; the page has no other
 derivation of anything that is traced here.
 """
 
@@ -18,8 +18,9 @@ import jax.numpy as jnp
 from singletrack.body.reach import reach
 from singletrack.closed_form import coefficients
 from singletrack.library import load_bicycle, load_rider
-from singletrack.page.records import page_records
+from singletrack.webpage.records import page_records
 from singletrack.parameters import Bicycle, Rider
+from singletrack.parameters.bicycle import FLATNESS_TOLERANCE
 from singletrack.parameters.record import ALLOWED
 from singletrack.posture import Options, seat, steered_skeleton
 from singletrack.tracing import javascript_function, trace
@@ -160,6 +161,7 @@ def manifest(all_variants: Iterable[Variant]) -> dict[str, Any]:
     return {
         "parameters": parameters,
         "allowed": {kind: words for kind, (words, _) in ALLOWED.items()},
+        "flatness": FLATNESS_TOLERANCE,
         "variants": [_described(variant) for variant in all_variants],
         "example": page_records(),
     }
