@@ -41,7 +41,11 @@ clean:
 	rm -rf $(VENV) build dist singletrack-output .mypy_cache .ruff_cache .import_linter_cache
 
 # The page in the browser: programs traced from the equations, sources checked and built (needs npm), result shipped.
-.PHONY: page page-programs
+.PHONY: page page-check page-programs
+# Types of the page's sources.
+page-check:
+	cd web && npm ci --no-audit --no-fund --loglevel=error && npm run check
+
 page-programs: setup-dev
 	$(BIN)/python -m singletrack.webpage.generate web/src/generated
 

@@ -2,32 +2,28 @@
 
 from __future__ import annotations
 
+import importlib
 import warnings
 from dataclasses import dataclass
 from enum import StrEnum
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
-from singletrack import closed_form, multibody
-from singletrack.body.reach import seat_oddities
+from singletrack.analysis.summary import all_oddities
 from singletrack.errors import InputError, OddityWarning, unknown_name
 from singletrack.library import load_bicycle, load_rider
 from singletrack.library.load import override
 from singletrack.parameters import Bicycle, Rider
 from singletrack.parameters.bicycle import FRAME_GEOMETRY
-from singletrack.parameters.plausibility import oddities
 from singletrack.posture import POSTURES, SHOULDERS, Options
 from singletrack.public import CoefficientMatrices
-
-if TYPE_CHECKING:
-    from singletrack.parameters.record import Record
 
 __all__ = ["Made", "ModelOptions", "model_from", "seated", "warn_of_oddities"]
 
 
 class EngineName(StrEnum):
-    """The two independent derivations."""
+    """The two independent derivations, by the names of their rooms."""
 
     closed_form = "closed-form"
     multibody = "multibody"
@@ -88,8 +84,8 @@ def model_from(bicycle: str, options: ModelOptions) -> Made:
         If there is no such thing, or a value is not allowed.
     """
     record, rider, changed = seated(load_bicycle(bicycle), options)
-    derive = multibody.coefficients if options.engine is EngineName.multibody else closed_form.coefficients
-    model = CoefficientMatrices.of(derive(record, rider, options.sitting))
+    maker = importlib.import_module(f"singletrack.{options.engine.name}")  # a door: the engine's libraries are heavy
+    model = CoefficientMatrices.of(maker.coefficients(record, rider, options.sitting))
     rider = None if rider is None else rider.on(record)
     warn_of_oddities(record, rider)
     who = "" if rider is None else f" with {rider.name or 'rider'}, {options.posture}"
@@ -120,7 +116,7 @@ def seated(bicycle: Bicycle, options: ModelOptions) -> tuple[Bicycle, Rider | No
         if name not in own and name not in theirs:
             raise InputError(f"--set: {unknown_name('parameter', name, [*own, *(theirs if rider else [])])}")
         if rider is None and name in FRAME_GEOMETRY:
-            _warn(f"--set {name}: changes nothing without a --rider (frame geometry says where a rider sits)")
+            _warn(f"--set {name}: changes no equation without a --rider (frame geometry says where a rider sits)")
     bicycle = override(bicycle, {name: text for name, text in changes.items() if name in own})
     if rider is not None:
         rider = override(rider, {name: text for name, text in changes.items() if name not in own})
@@ -140,7 +136,7 @@ def _changes(settings: list[str] | None) -> dict[str, str]:
     return changes
 
 
-def warn_of_oddities(record: Record, rider: Rider | None = None) -> None:
+def warn_of_oddities(record: Bicycle | Rider, rider: Rider | None = None) -> None:
     """Warn of whatever looks odd about a bicycle or rider, or about a rider on a bicycle.
 
     Parameters
@@ -149,10 +145,7 @@ def warn_of_oddities(record: Record, rider: Rider | None = None) -> None:
     rider : Rider, optional
         Seated on the bicycle.
     """
-    found = list(oddities(record, rider))
-    if rider is not None and isinstance(record, Bicycle):
-        found += seat_oddities(record, rider)
-    for oddity in found:
+    for oddity in all_oddities(record, rider):
         _warn(str(oddity))
 
 

@@ -18,13 +18,14 @@ __all__ = ["run"]
 
 def run(
     bicycles: Annotated[
-        list[str] | None, typer.Argument(metavar="[BICYCLE]...", help="Shipped names or files; the first is shown first.")
+        list[str] | None,
+        typer.Argument(metavar="[BICYCLE]...", help="Shipped names or files; the first is shown first."),
     ] = None,
     rider: Annotated[str | None, typer.Option("--rider", metavar="RIDER", help="A shipped name or a file.")] = None,
     posture: Annotated[str | None, typer.Option("--posture", metavar="NAME", help="What the page begins with.")] = None,
-    output: Annotated[
-        Path, typer.Option("--output", "-o", metavar="FILE", help="Where to write the page.")
-    ] = Path("singletrack.html"),
+    output: Annotated[Path, typer.Option("--output", "-o", metavar="FILE", help="Where to write the page.")] = Path(
+        "singletrack.html"
+    ),
     show: Annotated[
         bool | None, typer.Option("--open/--no-open", help="Open it in the browser; by default in a terminal only.")
     ] = None,

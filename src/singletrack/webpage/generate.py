@@ -1,7 +1,7 @@
 """The programs of the page: equations and moved skeletons, traced from this package into straight-line JavaScript.
 
-Run as ``python -m singletrack.webpage.generate FOLDER`` it writes ``programs.js`` and ``manifest.json``; the page has no other
-derivation of anything that is traced here.
+Run as ``python -m singletrack.webpage.generate FOLDER`` it writes ``programs.js`` and ``manifest.json``; the page has
+no other derivation of anything that is traced here.
 """
 
 from __future__ import annotations
@@ -18,12 +18,12 @@ import jax.numpy as jnp
 from singletrack.body.reach import reach
 from singletrack.closed_form import coefficients
 from singletrack.library import load_bicycle, load_rider
-from singletrack.webpage.records import page_records
 from singletrack.parameters import Bicycle, Rider
 from singletrack.parameters.bicycle import FLATNESS_TOLERANCE
 from singletrack.parameters.record import ALLOWED
-from singletrack.posture import Options, seat, steered_skeleton
+from singletrack.posture import Options, loop_residual, moved_skeleton, seat
 from singletrack.tracing import javascript_function, trace
+from singletrack.webpage.records import page_records
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
@@ -53,7 +53,7 @@ class Variant:
         """A name for functions, such as ``leaned_bent``."""
         if self.options is None:
             return "bare"
-        parts = (self.options.posture, self.options.arms, "torso_lean" if self.options.torso_lean else None)
+        parts = (str(self.options.posture), self.options.arms, "torso_lean" if self.options.torso_lean else None)
         return "_".join(part for part in parts if part)
 
     @property
@@ -83,7 +83,7 @@ def variants() -> list[Variant]:
     rider = load_rider("rider-a")
     for posture, arms, bicycle_name in _POSTURES:
         bicycle = load_bicycle(bicycle_name)
-        for torso_lean in (False,):
+        for torso_lean in (False, True):
             options = Options(posture, arms=arms, torso_lean=torso_lean)
             found.append(Variant(options, bicycle, rider.on(bicycle)))
     return found
@@ -91,13 +91,14 @@ def variants() -> list[Variant]:
 
 _POSTURES = (
     ("rigid", None, "stratos"),
-    ("leaned", None, "stratos"),
+    ("leaned", "straight", "stratos"),
+    ("leaned", "bent", "stratos"),
     ("upright", None, "browser"),
 )
 
 
 def _equations(variant: Variant) -> Callable[[Any], tuple[Any, ...]]:
-    """Return the function of the inputs that gives the matrices, the shares of limbs that are stretched, the residual."""
+    """Return the function of the inputs that gives the matrices, how far limbs are stretched, the residual."""
 
     def equations(inputs: Any) -> tuple[Any, ...]:
         bicycle, rider = variant.records(inputs)
@@ -107,14 +108,9 @@ def _equations(variant: Variant) -> Callable[[Any], tuple[Any, ...]]:
             return (*matrices, jnp.zeros(3))
         seated = seat(bicycle, rider, variant.options)
         shares = reach(seated.skeleton, rider)
-        return (*matrices, jnp.stack([shares["arm"], shares["leg"], _residual(seated, bicycle)]))
+        return (*matrices, jnp.stack([shares["arm"], shares["leg"], loop_residual(seated, bicycle)]))
 
     return equations
-
-
-def _residual(seated: Any, bicycle: Bicycle) -> Any:
-    """Return by how much the hands miss their grips, in m per rad of steer."""
-    return jnp.zeros(())
 
 
 def _skeleton(variant: Variant) -> Callable[[Any], Any]:
@@ -125,15 +121,16 @@ def _skeleton(variant: Variant) -> Callable[[Any], Any]:
         bicycle, rider = variant.records(inputs[:count])
         assert rider is not None  # noqa: S101  # only riders have a skeleton
         seated = seat(bicycle, rider, variant.options or Options())
-        return steered_skeleton(seated, bicycle, inputs[count])
+        return moved_skeleton(seated, bicycle, inputs[count:])
 
     return skeleton
 
 
 def programs(all_variants: Iterable[Variant]) -> str:
     """Return the JavaScript module with the programs of all variants."""
-    before = jax.config.jax_enable_x64
-    jax.config.update("jax_enable_x64", val=True)
+    config: Any = jax.config
+    before = config.jax_enable_x64
+    config.update("jax_enable_x64", val=True)
     try:
         parts = ["// Traced from the equations of the Python package by `make page-programs`; not to be edited.\n"]
         for variant in all_variants:
@@ -142,7 +139,7 @@ def programs(all_variants: Iterable[Variant]) -> str:
                 moved = [*variant.nominal, *_freedoms(variant)]
                 parts.append(javascript_function(f"skeleton_{variant.name}", *trace(_skeleton(variant), moved)))
     finally:
-        jax.config.update("jax_enable_x64", val=before)
+        config.update("jax_enable_x64", val=before)
     return "\n".join(parts)
 
 

@@ -19,7 +19,9 @@ __all__ = ["page_records"]
 _FIRST = ("stratos", "rider-a", "leaned")
 
 
-def page_records(bicycles: Sequence[Bicycle] = (), rider: Rider | None = None, posture: str | None = None) -> dict[str, Any]:
+def page_records(
+    bicycles: Sequence[Bicycle] = (), rider: Rider | None = None, posture: str | None = None
+) -> dict[str, Any]:
     """Return own and shipped records for the page, own ones first.
 
     Parameters
