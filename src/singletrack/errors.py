@@ -19,6 +19,7 @@ __all__ = [
     "PostureError",
     "SingletrackError",
     "nearest",
+    "shown",
     "unknown",
     "unknown_name",
 ]
@@ -158,6 +159,30 @@ class OddityWarning(UserWarning):
 _MOST_LISTED = 12
 
 
+def shown(found: object, longest: int = 60) -> str:
+    """Return what was found as a message shows it: never long, whatever it is.
+
+    Parameters
+    ----------
+    found : object
+    longest : int
+        Characters to show.
+
+    Examples
+    --------
+    >>> shown(list(range(100)), 12), shown(16**10_000)
+    ('[0, 1, 2, 3,...', 'a number of 12042 digits')
+    """
+    try:
+        text = repr(found)
+    except ValueError:  # Python's limit on the digits of whole numbers
+        digits = found.bit_length() * 30103 // 100000 + 1 if isinstance(found, int) else "too many"
+        return f"a number of {digits} digits"
+    except RecursionError:
+        return "something nested too deeply"
+    return text if len(text) <= longest else f"{text[:longest]}..."
+
+
 def nearest(name: str, known: Iterable[str]) -> str:
     """Return a sentence part that offers the nearest known name, or nothing.
 
@@ -166,6 +191,7 @@ def nearest(name: str, known: Iterable[str]) -> str:
     >>> nearest("xyz", ["trail", "wheel_base"])
     ''
     """
+    name = name[:80]  # the comparison takes the product of both lengths
     by_lower = {other.lower(): other for other in known}
     close = difflib.get_close_matches(name.lower(), by_lower, n=1, cutoff=0.6)
     return f"; did you mean {by_lower[close[0]]}?" if close else ""
