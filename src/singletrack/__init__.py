@@ -3,7 +3,7 @@
 >>> from singletrack import coefficients, load_bicycle, load_rider
 >>> model = coefficients(load_bicycle("stratos"), load_rider("rider-a"), posture="leaned")
 >>> model.critical_speeds().stable_ranges
-[(5.90..., 9.44...)]
+[(5.99..., 9.58...)]
 """
 
 from __future__ import annotations

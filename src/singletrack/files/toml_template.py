@@ -17,6 +17,9 @@ if TYPE_CHECKING:
 
 __all__ = ["template_of"]
 
+#: Optional parameters that most files do without; their lines are comments.
+_SELDOM = ("elbow_drop_angle", "torso_thickness", "torso_width", "handlebar_width", "handlebar_drop")
+
 _BICYCLE_SKETCH = r"""
                saddle           g-----s
                 ---                    \
@@ -69,7 +72,7 @@ def template_of(cls: type[Bicycle | Rider]) -> str:
     Examples
     --------
     >>> print(template_of(Bicycle).splitlines()[-1])
-    stem_length = "? m" # optional, ls: along the steer axis; greater than zero
+    # handlebar_drop = "? m" # optional, hhb: grips below the stem top (negative: above); else none; a finite number
     """
     kind = cls.kind
     sketch = _BICYCLE_SKETCH if cls is Bicycle else _RIDER_SKETCH
@@ -101,4 +104,5 @@ def _parameter_lines(descriptions: dict[str, Parameter]) -> Iterator[str]:
             note = "optional, " if p.optional else ""
             if name == "forward_lean_angle":
                 yield f'# On several bicycles, by name: {name} = {{ stratos = "63.9 deg", browser = "82.9 deg" }}'
-            yield f"{name} = {text} # {note}{p.symbol}: {p.meaning}; {ALLOWED[p.allowed][0]}"
+            seldom = "# " if name in _SELDOM else ""
+            yield f"{seldom}{name} = {text} # {note}{p.symbol}: {p.meaning}; {ALLOWED[p.allowed][0]}"

@@ -24,7 +24,7 @@ def template(kind: str) -> str:
     Examples
     --------
     >>> print(template("bicycle").splitlines()[-1])
-    stem_length = "? m" # optional, ls: along the steer axis; greater than zero
+    # handlebar_drop = "? m" # optional, hhb: grips below the stem top (negative: above); else none; a finite number
     """
     known = templates()
     if kind not in known:

@@ -86,7 +86,7 @@ class Study:
     @property
     def posture(self) -> str:
         """The rider's posture."""
-        return self.options.posture
+        return self.options.name
 
     def to_dict(self) -> dict[str, Any]:
         """Return all that decides the results and their places, for provenance: plain values, SI units."""
