@@ -1,4 +1,4 @@
-"""Files as what they are made of: entries with a name, a value, a deviation, a unit; and how each format writes them."""
+"""Files as what they are made of: entries with a name, a value, a deviation, a unit; and how formats write them."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 __all__ = ["Document", "Entry", "parse", "render"]
 
-_TOML = re.compile(r'^(?P<name>[\w.-]+) = (?P<rest>.*?)(?: # .*)?$')
+_TOML = re.compile(r"^(?P<name>[\w.-]+) = (?P<rest>.*?)(?: # .*)?$")
 _QUOTED = re.compile(r'"(?P<value>[-+.\de]+)(?: \+/- (?P<deviation>[-+.\de]+))? ?(?P<unit>[^"]*)"')
 _PLAIN = re.compile(r"^\s*(?P<name>\w+)\s*[=:]\s*(?P<value>[^#+]*?)(?:\+/-(?P<deviation>[-+.\de]+))?\s*(?:#.*)?$")
 

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
-import random
 import re
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 from documents import Document, Entry
+
+if TYPE_CHECKING:
+    import random
 
 __all__ = ["BYTES", "STRUCTURE"]
 
@@ -16,11 +19,42 @@ NUMBERS = (
     *("1.0, 2.0", "10, 10, 13", "1,2,3", "1e5", "1e-5", "1.7976931348623157e308", "0.1e1", ".5", "5.", "+1", "1e+2"),
 )
 UNITS = (
-    *("m", "mm", "kg", "g", "deg", "rad", "s", "kg*m^2", "m/s^2", "N/kg", "in", "lb", "furlong", "m**9**9**9", "%", "°"),
+    *(
+        "m",
+        "mm",
+        "kg",
+        "g",
+        "deg",
+        "rad",
+        "s",
+        "kg*m^2",
+        "m/s^2",
+        "N/kg",
+        "in",
+        "lb",
+        "furlong",
+        "m**9**9**9",
+        "%",
+        "°",
+    ),
     *("1/m", "", "kg/", "m m", "(m)", "m^-3", "kg m^2", "µm", "Mg", "m·kg", "m\u00b2"),
 )
 OTHER_NAMES = (
-    *("w", "c", "lam", "mG", "IGxx", "xS", "trail", "wheel_base", "rider_mass", "head_angle", "kDaa", "TcB1", "alphaB4"),
+    *(
+        "w",
+        "c",
+        "lam",
+        "mG",
+        "IGxx",
+        "xS",
+        "trail",
+        "wheel_base",
+        "rider_mass",
+        "head_angle",
+        "kDaa",
+        "TcB1",
+        "alphaB4",
+    ),
     *("Ls1L", "somersault", "parameters", "values", "kind", "name", "v", "h1", "nF", "gravity", "forward_lean_angle"),
 )
 
@@ -77,7 +111,9 @@ def swapped_values(rng, document):
 
 
 def deviation(rng, document):
-    return _changed(document, _some(rng, document), deviation=rng.choice(["0.1", "0", "-1", "nan", "1e300", "x", "1e-320"]))
+    return _changed(
+        document, _some(rng, document), deviation=rng.choice(["0.1", "0", "-1", "nan", "1e300", "x", "1e-320"])
+    )
 
 
 def unit(rng, document):
@@ -143,10 +179,45 @@ def odd_line(rng, document):
     entries = list(document.entries)
     line = rng.choice(
         [
-            *("#" * 500, "= 1", ": 1", "[parameters]", "[segments.torso]", "[extras]", "[[a]]", "a.b.c = 1", "---", "..."),
-            *('x = """', "x = '''", "x = [1, [2, [3]]]", "x = {a = {b = 1}}", "a: &b 1", "c: *b", "- 1", "? x", "!!int 1"),
-            *("\t", "\x0c", "\u2028", "é = 1", "x = 1979-05-27", "x = 07:32:00", "x = true", "x = 0x" + "f" * 9000, "%YAML 1.1"),
-            *("." .join("a" * rng.randint(2, 400)) + " = 1", "[" * rng.randint(1, 3000), "a: " + "{b: " * rng.randint(1, 500)),
+            *(
+                "#" * 500,
+                "= 1",
+                ": 1",
+                "[parameters]",
+                "[segments.torso]",
+                "[extras]",
+                "[[a]]",
+                "a.b.c = 1",
+                "---",
+                "...",
+            ),
+            *(
+                'x = """',
+                "x = '''",
+                "x = [1, [2, [3]]]",
+                "x = {a = {b = 1}}",
+                "a: &b 1",
+                "c: *b",
+                "- 1",
+                "? x",
+                "!!int 1",
+            ),
+            *(
+                "\t",
+                "\x0c",
+                "\u2028",
+                "é = 1",
+                "x = 1979-05-27",
+                "x = 07:32:00",
+                "x = true",
+                "x = 0x" + "f" * 9000,
+                "%YAML 1.1",
+            ),
+            *(
+                ".".join("a" * rng.randint(2, 400)) + " = 1",
+                "[" * rng.randint(1, 3000),
+                "a: " + "{b: " * rng.randint(1, 500),
+            ),
             *(" " * rng.randint(1, 50_000) + '"" = 5', "\n" * rng.randint(1, 50_000), "x = " + "1, " * 500 + "1"),
         ]
     )
@@ -168,7 +239,9 @@ def unquoted(rng, document):
 
 
 def around(rng, document):
-    piece = rng.choice(["\ufeff", "\n" * 1000, "# " + "x" * 1000, "\x00", "{", "---\n", "values:\n", '[parameters]\n', " "])
+    piece = rng.choice(
+        ["\ufeff", "\n" * 1000, "# " + "x" * 1000, "\x00", "{", "---\n", "values:\n", "[parameters]\n", " "]
+    )
     return replace(document, **{rng.choice(["head", "tail"]): piece})
 
 

@@ -23,6 +23,7 @@ from pathlib import Path
 from documents import parse, render
 from mutators import BYTES, STRUCTURE
 from readers import MADE, READERS, check
+
 from singletrack.errors import InputError, OddityWarning
 
 CORPUS = Path(__file__).with_name("corpus")
@@ -112,7 +113,9 @@ def main() -> int:
     if megabytes > MEGABYTES:
         wrong.append(f"{megabytes:.0f} MB")
     inputs = sum(found["read"] + found["refused"] for found in summary.values())
-    sys.stdout.write(json.dumps({"inputs": inputs, "readers": summary, "megabytes": megabytes, "wrong": wrong}, indent=1))
+    sys.stdout.write(
+        json.dumps({"inputs": inputs, "readers": summary, "megabytes": megabytes, "wrong": wrong}, indent=1)
+    )
     return 1 if wrong else 0
 
 

@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING
 from singletrack.errors import InputError
 from singletrack.files.format import Format
 from singletrack.files.text_lines import read_values
-from singletrack.mechanics.rigid import PlanarBody
+from singletrack.mechanics.rigid import PlanarBody, principal_in_plane
+from singletrack.parameters.bicycle import FLATNESS_TOLERANCE
 
 if TYPE_CHECKING:
     from singletrack.files.format import Clues
@@ -60,6 +61,16 @@ def read_rigid_rider(text: str, where: str) -> PlanarBody:
         raise _wrong(given, "zB", f"{values['zB']:g} m, must be less than zero (z points down)")
     if values["IBxz"] ** 2 >= values["IBxx"] * values["IBzz"]:
         raise _wrong(given, "IBxz", f"{values['IBxz']:g} kg*m^2 is no body's: its square must be less than IBxx IBzz")
+    larger, smaller, _ = principal_in_plane(values["IBxx"], values["IBzz"], values["IBxz"])
+    slack = 1 + FLATNESS_TOLERANCE
+    if values["IByy"] > slack * (larger + smaller) or larger > slack * (values["IByy"] + smaller):
+        moments = f"({smaller:.6g}, {values['IByy']:.6g}, {larger:.6g} kg*m^2)"
+        raise _wrong(
+            given,
+            "IByy",
+            f"{values['IByy']:g} kg*m^2 is no body's: of the principal moments {moments} none may exceed the sum of the "
+            f"other two by more than {FLATNESS_TOLERANCE:.0%}",
+        )
     return PlanarBody(*(values[name] for name in ("mB", "xB", "zB", "IBxx", "IByy", "IBzz", "IBxz")))
 
 
