@@ -25,6 +25,10 @@ __all__ = [
 ]
 
 
+#: Errors that one message tells; whoever made this many has made one mistake, not many.
+_MOST_TOLD = 8
+
+
 class SingletrackError(ValueError):
     """Any error caused by what was asked for; its text is one complete message, its attributes say the same in parts.
 
@@ -99,7 +103,8 @@ class SingletrackError(ValueError):
         for part in self.parts:
             told.append(f"{part.place}: {part.reason}" if part.place != before and part.place else part.reason)
             before = part.place
-        return "; ".join(told)
+        more = [f"and {len(told) - _MOST_TOLD} more"] if len(told) > _MOST_TOLD else []
+        return "; ".join([*told[:_MOST_TOLD], *more])
 
     def of(self, parameter: str) -> SingletrackError:
         """Return an error about a value as one about the parameter that was to have it.

@@ -16,7 +16,8 @@ if TYPE_CHECKING:
 
 __all__ = ["FORMAT", "read_rigid_rider"]
 
-_LARGEST = 1e6
+#: A rider and what he sits on stay well within what a bicycle may weigh.
+_LARGEST = {"m": 500.0, "I": 1e4, "x": 10.0, "z": 10.0}
 _SYMBOLS = ("mB", "xB", "yB", "zB", "IBxx", "IByy", "IBzz", "IBxz")
 
 
@@ -52,11 +53,11 @@ def read_rigid_rider(text: str, where: str) -> PlanarBody:
     values = given.values()
     given.require_equal({"yB": 0.0})
     for name in ("mB", "IBxx", "IByy", "IBzz"):
-        if not 0 < values[name] < _LARGEST:
+        if not values[name] > 0:
             raise _wrong(given, name, f"{values[name]:g}, must be greater than zero")
-    for name in ("xB", "zB", "IBxz"):
-        if not abs(values[name]) < _LARGEST:
-            raise _wrong(given, name, f"{values[name]:g}, must be less than {_LARGEST:g}")
+    for name, value in values.items():
+        if name != "yB" and not abs(value) < _LARGEST[name[0]]:
+            raise _wrong(given, name, f"{value:g}, must be less than {_LARGEST[name[0]]:g}")
     if values["zB"] >= 0:
         raise _wrong(given, "zB", f"{values['zB']:g} m, must be less than zero (z points down)")
     if values["IBxz"] ** 2 >= values["IBxx"] * values["IBzz"]:
@@ -68,8 +69,8 @@ def read_rigid_rider(text: str, where: str) -> PlanarBody:
         raise _wrong(
             given,
             "IByy",
-            f"{values['IByy']:g} kg*m^2 is no body's: of the principal moments {moments} none may exceed the sum of the "
-            f"other two by more than {FLATNESS_TOLERANCE:.0%}",
+            f"{values['IByy']:g} kg*m^2 is no body's: of the principal moments {moments} none may exceed the sum "
+            f"of the other two by more than {FLATNESS_TOLERANCE:.0%}",
         )
     return PlanarBody(*(values[name] for name in ("mB", "xB", "zB", "IBxx", "IByy", "IBzz", "IBxz")))
 
