@@ -10,7 +10,7 @@ from typing import Annotated
 
 import typer
 
-from singletrack.analysis.summary import all_oddities
+from singletrack.body.oddities import warn_of_oddities
 from singletrack.errors import InputError, OddityWarning, unknown_name
 from singletrack.library import load_bicycle, load_rider
 from singletrack.library.load import override
@@ -20,7 +20,7 @@ from singletrack.parameters.units import parse_quantity
 from singletrack.posture import ARMS, POSTURES, SHOULDERS, Options, mechanism_of, named_posture
 from singletrack.public import CoefficientMatrices
 
-__all__ = ["Made", "ModelOptions", "model_from", "seated", "warn_of_oddities"]
+__all__ = ["Made", "ModelOptions", "model_from", "seated"]
 
 
 class EngineName(StrEnum):
@@ -169,19 +169,6 @@ def _laws(option: str, settings: list[str] | None, turning: str, sliding: str, h
         except InputError as error:
             raise InputError(f"{option} {joint}: {error}") from None
     return found
-
-
-def warn_of_oddities(record: Bicycle | Rider, rider: Rider | None = None) -> None:
-    """Warn of whatever looks odd about a bicycle or rider, or about a rider on a bicycle.
-
-    Parameters
-    ----------
-    record : Bicycle or Rider
-    rider : Rider, optional
-        Seated on the bicycle.
-    """
-    for oddity in all_oddities(record, rider):
-        _warn(str(oddity))
 
 
 def _warn(text: str) -> None:
