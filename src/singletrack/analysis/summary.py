@@ -22,7 +22,7 @@ from singletrack.parameters.plausibility import Oddity, oddities
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from singletrack.measuring.pendulums import Measurement
+    from singletrack.measuring.measurement import Measurement
     from singletrack.posture import Options
 
 __all__ = ["Quantity", "Results", "all_oddities", "derived", "measured_speeds", "results"]
@@ -92,7 +92,7 @@ def _of_bicycle(b: Bicycle) -> Iterator[Quantity]:
 
 def _of_rider(r: Rider) -> Iterator[Quantity]:
     group = "segments"
-    yield Quantity(group, "torso", (float(r.torso_width), float(r.torso_thickness)), "m", "wide, thick")
+    yield Quantity(group, "torso", tuple(float(size) for size in r.torso_section), "m", "wide, thick")
     for name in ("head", "torso", "upper_arm", "lower_arm", "upper_leg", "lower_leg"):
         mass = float(getattr(r, f"{name}_mass_fraction")) * float(r.rider_mass)
         yield Quantity(group, f"{name.replace('_', ' ')} mass", (mass,), "kg", "one side" if "_" in name else "")

@@ -23,6 +23,7 @@ _ROUNDING = 1e-12
 
 _GENERAL, _REAR_WHEEL, _REAR_FRAME = "bicycle", "rear wheel", "rear frame (body and frame assembly)"
 _FRONT_FRAME, _FRONT_WHEEL = "front frame (handlebar and fork assembly)", "front wheel"
+_GRIPS = "grips (where they are not level with the stem top, as wide as the shoulders)"
 _GEOMETRY = "frame geometry (needed to seat a rider)"
 
 
@@ -92,6 +93,13 @@ class Bicycle(Record):
     seat_tube_angle: Array = parameter("rad", "λst", "from the ground", "angle", group=_GEOMETRY, optional=True)
     seat_tube_length: Array = parameter("m", "lst", "crank axle to seat tube top", group=_GEOMETRY, optional=True)
     stem_length: Array = parameter("m", "ls", "along the steer axis", group=_GEOMETRY, optional=True)
+
+    handlebar_width: Array = parameter(
+        "m", "whb", "between the grips; else that of the rider's shoulders", group=_GRIPS, optional=True
+    )
+    handlebar_drop: Array = parameter(
+        "m", "hhb", "grips below the stem top (negative: above); else none", "any", group=_GRIPS, optional=True
+    )
 
     def missing_geometry(self) -> list[str]:
         """Return the names of the lengths and angles that are needed to seat a rider and are not given."""

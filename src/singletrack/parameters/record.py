@@ -13,7 +13,8 @@ from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 from singletrack.arrays import Array, is_concrete
 from singletrack.arrays.faults import Fault, refuse_single
-from singletrack.errors import InputError, unknown
+from singletrack.errors import InputError
+from singletrack.parameters.hints import unknown_parameter
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -133,7 +134,7 @@ class Record:
         known = [f.name for f in dataclasses.fields(cls)]
         for name in names:
             if name not in known and name not in also:
-                raise unknown(f"{cls.kind} parameter", name, cls.descriptions())
+                raise unknown_parameter(cls.kind, name, cls.descriptions())
 
     def faults(self) -> tuple[Fault, ...]:
         """Return what is wrong with the values, one fault per rule, with a mask over the batch."""
