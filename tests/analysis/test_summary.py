@@ -14,7 +14,7 @@ from singletrack import InputError, coefficients, load_bicycle, load_rider
 from singletrack.analysis.outline import outline
 from singletrack.analysis.summary import all_oddities, derived, results
 from singletrack.commands import show
-from singletrack.commands.model import ModelOptions
+from singletrack.commands.model_options import ModelOptions
 from singletrack.present.sketch import side_view
 
 

@@ -1,7 +1,8 @@
-"""What version 0.1.0 printed for the shipped cases, to the last digit: only keys may have been added.
+"""What version 0.1.0 printed for the shipped cases: only keys may have been added.
 
-Each file here holds the outputs of one command by case, as 0.1.0 printed them on Linux (x86-64). On other systems sine
-and cosine differ in the last digit: there the numbers are compared.
+Each file here holds the outputs of one command by case, as 0.1.0 printed them on Linux (x86-64). Bare bicycles are the
+same to the last digit; on other systems sine and cosine differ there. With a rider the terms are added in another order
+since mechanisms are data: the text is the same but for the last digits of its numbers.
 """
 
 from __future__ import annotations
@@ -16,7 +17,7 @@ import numpy as np
 import pytest
 
 from singletrack.commands import door
-from singletrack.commands.model import ModelOptions
+from singletrack.commands.model_options import ModelOptions
 
 HERE = Path(__file__).parent
 SAME_SYSTEM = (platform.system(), platform.machine()) == ("Linux", "x86_64")
@@ -56,9 +57,9 @@ def test_output_is_that_of_version_0_1(kind, case, capsys):
     printed, golden = capsys.readouterr().out, GOLDEN[kind][case]
     if kind.endswith("json"):
         printed = json.dumps(without_added(json.loads(printed), json.loads(golden)), indent=1) + "\n"
-    if SAME_SYSTEM:
+    if SAME_SYSTEM and len(arguments(case)) == 1:
         assert printed == golden
     else:
         assert NUMBER.sub("", printed) == NUMBER.sub("", golden)
         numbers = [np.array(NUMBER.findall(text), dtype=float) for text in (printed, golden)]
-        np.testing.assert_allclose(*numbers, rtol=1e-10, atol=1e-12)
+        np.testing.assert_allclose(*numbers, rtol=2e-12, atol=1e-13)

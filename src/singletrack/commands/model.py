@@ -1,72 +1,33 @@
-"""The options of every command that makes a model, and the model that they ask for."""
+"""The model that a command's arguments ask for, and what looks odd about it."""
 
 from __future__ import annotations
 
 import importlib
 import warnings
 from dataclasses import dataclass
-from enum import StrEnum
-from typing import Annotated
-
-import typer
 
 from singletrack.analysis.summary import all_oddities
+from singletrack.commands.model_options import ModelOptions, pairs
 from singletrack.errors import InputError, OddityWarning, unknown_name
 from singletrack.library import load_bicycle, load_rider
 from singletrack.library.load import override
 from singletrack.parameters import Bicycle, Rider
 from singletrack.parameters.bicycle import FRAME_GEOMETRY
-from singletrack.posture import POSTURES, SHOULDERS, Options
+from singletrack.posture import Options
 from singletrack.public import CoefficientMatrices
 
-__all__ = ["Made", "ModelOptions", "model_from", "seated", "warn_of_oddities"]
-
-
-class EngineName(StrEnum):
-    """The two independent derivations, by the names of their rooms."""
-
-    closed_form = "closed-form"
-    multibody = "multibody"
-
-
-@dataclass(frozen=True)
-class ModelOptions:
-    """The options of a command that makes a model: one parameter of its ``run``."""
-
-    rider: Annotated[
-        str | None, typer.Option("--rider", metavar="RIDER", help="A shipped name or a file; without: no rider.")
-    ] = None
-    posture: Annotated[
-        str, typer.Option("--posture", metavar="NAME", help=f"{', '.join(POSTURES)}; rigid: hands free.")
-    ] = POSTURES[0]
-    shoulder: Annotated[
-        str | None,
-        typer.Option(
-            "--shoulder",
-            metavar="NAME",
-            help=f"Second shoulder axis: {', '.join(SHOULDERS)}; by default as the posture has it.",
-        ),
-    ] = None
-    engine: Annotated[EngineName, typer.Option("--engine", help="Which derivation to use.")] = EngineName.closed_form
-    settings: Annotated[
-        list[str] | None,
-        typer.Option("--set", metavar="NAME=VALUE", help='Change a parameter, e.g. "steer_axis_tilt=18.5 deg".'),
-    ] = None
-
-    @property
-    def sitting(self) -> Options:
-        """How the rider sits, as the makers of models take it."""
-        return Options(self.posture, self.shoulder)
+__all__ = ["Made", "model_from", "seated", "warn_of_oddities"]
 
 
 @dataclass(frozen=True)
 class Made:
-    """A model, what it was made from, and a heading that says so."""
+    """A model, what it was made from, a heading that says so, and how the rider sits."""
 
     model: CoefficientMatrices
     bicycle: Bicycle
     rider: Rider | None
     title: str
+    sitting: Options
 
 
 def model_from(bicycle: str, options: ModelOptions) -> Made:
@@ -84,12 +45,13 @@ def model_from(bicycle: str, options: ModelOptions) -> Made:
         If there is no such thing, or a value is not allowed.
     """
     record, rider, changed = seated(load_bicycle(bicycle), options)
+    sitting = options.sitting()
     maker = importlib.import_module(f"singletrack.{options.engine.name}")  # a door: the engine's libraries are heavy
-    model = CoefficientMatrices.of(maker.coefficients(record, rider, options.sitting))
+    model = CoefficientMatrices.of(maker.coefficients(record, rider, sitting))
     rider = None if rider is None else rider.on(record)
     warn_of_oddities(record, rider)
-    who = "" if rider is None else f" with {rider.name or 'rider'}, {options.posture}"
-    return Made(model, record, rider, f"{record.name}{who}{changed}")
+    who = "" if rider is None else f" with {rider.name or 'rider'}, {sitting.name}"
+    return Made(model, record, rider, f"{record.name}{who}{options.words}{changed}", sitting)
 
 
 def seated(bicycle: Bicycle, options: ModelOptions) -> tuple[Bicycle, Rider | None, str]:
@@ -107,7 +69,7 @@ def seated(bicycle: Bicycle, options: ModelOptions) -> tuple[Bicycle, Rider | No
         If a name is unknown or given twice, or a value is not allowed.
     """
     rider = None if options.rider is None else load_rider(options.rider)
-    changes = _changes(options.settings)
+    changes = pairs("--set", options.settings)
     own = bicycle.descriptions()
     theirs = Rider.descriptions()
     for name in changes:
@@ -121,19 +83,6 @@ def seated(bicycle: Bicycle, options: ModelOptions) -> tuple[Bicycle, Rider | No
     if rider is not None:
         rider = override(rider, {name: text for name, text in changes.items() if name not in own})
     return bicycle, rider, "".join(f", {name} = {text}" for name, text in changes.items())
-
-
-def _changes(settings: list[str] | None) -> dict[str, str]:
-    changes: dict[str, str] = {}
-    for setting in settings or []:
-        name, sign, value = setting.partition("=")
-        name, value = name.strip(), value.strip()
-        if not sign or not value:
-            raise InputError(f"--set {setting!r}: found no value; must be NAME=VALUE, e.g. --set trail=0.06")
-        if name in changes:
-            raise InputError(f"--set {name}: is given twice, as {changes[name]!r} and as {value!r}")
-        changes[name] = value
-    return changes
 
 
 def warn_of_oddities(record: Bicycle | Rider, rider: Rider | None = None) -> None:
