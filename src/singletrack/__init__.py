@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from singletrack.errors import InputError, PostureError, SingletrackError
+from singletrack.errors import InputError, OddityWarning, PostureError, SingletrackError
 from singletrack.version import __version__
 
 if TYPE_CHECKING:
@@ -23,6 +23,7 @@ __all__ = [
     "Bicycle",
     "CoefficientMatrices",
     "InputError",
+    "OddityWarning",
     "PostureError",
     "Rider",
     "SingletrackError",

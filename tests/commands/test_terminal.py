@@ -45,7 +45,7 @@ def test_names_are_data(command, odd):
     out, err = result.stdout.decode(), result.stderr.decode()
     assert result.returncode == 0
     assert "[/v2] [red]ice[bold :bicycle: \\[x] \\x1b]0;title\\x07\\x1b[31m\\u202e\\r\\x08" in out
-    assert "warning: trail = -0.05 m is negative" in err
+    assert ": trail = -0.05 m is negative" in err
     assert not set("\x1b\x07\r\b\u202e") & set(out + err)
 
 

@@ -6,28 +6,26 @@ import importlib
 import warnings
 from dataclasses import dataclass
 
-from singletrack.analysis.summary import all_oddities
+from singletrack.body.oddities import warn_of_oddities
 from singletrack.commands.model_options import ModelOptions, pairs
 from singletrack.errors import InputError, OddityWarning, unknown_name
 from singletrack.library import load_bicycle, load_rider
 from singletrack.library.load import override
 from singletrack.parameters import Bicycle, Rider
 from singletrack.parameters.bicycle import FRAME_GEOMETRY
-from singletrack.posture import Options
 from singletrack.public import CoefficientMatrices
 
-__all__ = ["Made", "model_from", "seated", "warn_of_oddities"]
+__all__ = ["Made", "model_from", "seated"]
 
 
 @dataclass(frozen=True)
 class Made:
-    """A model, what it was made from, a heading that says so, and how the rider sits."""
+    """A model, what it was made from, and a heading that says so."""
 
     model: CoefficientMatrices
     bicycle: Bicycle
     rider: Rider | None
     title: str
-    sitting: Options
 
 
 def model_from(bicycle: str, options: ModelOptions) -> Made:
@@ -45,13 +43,12 @@ def model_from(bicycle: str, options: ModelOptions) -> Made:
         If there is no such thing, or a value is not allowed.
     """
     record, rider, changed = seated(load_bicycle(bicycle), options)
-    sitting = options.sitting()
     maker = importlib.import_module(f"singletrack.{options.engine.name}")  # a door: the engine's libraries are heavy
-    model = CoefficientMatrices.of(maker.coefficients(record, rider, sitting))
+    model = CoefficientMatrices.of(maker.coefficients(record, rider, options.sitting))
     rider = None if rider is None else rider.on(record)
     warn_of_oddities(record, rider)
-    who = "" if rider is None else f" with {rider.name or 'rider'}, {sitting.name}"
-    return Made(model, record, rider, f"{record.name}{who}{options.words}{changed}", sitting)
+    who = "" if rider is None else f" with {rider.name or 'rider'}, {options.sitting.title}"
+    return Made(model, record, rider, f"{record.name}{who}{changed}")
 
 
 def seated(bicycle: Bicycle, options: ModelOptions) -> tuple[Bicycle, Rider | None, str]:
@@ -83,19 +80,6 @@ def seated(bicycle: Bicycle, options: ModelOptions) -> tuple[Bicycle, Rider | No
     if rider is not None:
         rider = override(rider, {name: text for name, text in changes.items() if name not in own})
     return bicycle, rider, "".join(f", {name} = {text}" for name, text in changes.items())
-
-
-def warn_of_oddities(record: Bicycle | Rider, rider: Rider | None = None) -> None:
-    """Warn of whatever looks odd about a bicycle or rider, or about a rider on a bicycle.
-
-    Parameters
-    ----------
-    record : Bicycle or Rider
-    rider : Rider, optional
-        Seated on the bicycle.
-    """
-    for oddity in all_oddities(record, rider):
-        _warn(str(oddity))
 
 
 def _warn(text: str) -> None:

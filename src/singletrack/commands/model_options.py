@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
+from functools import cached_property
 from typing import Annotated
 
 import typer
 
 from singletrack.errors import InputError
-from singletrack.library import shipped
 from singletrack.parameters.units import parse_quantity
-from singletrack.posture import ARMS, POSTURES, SHOULDERS, Options, load_posture
+from singletrack.posture import ARMS, POSTURES, SHOULDERS, Options, mechanism_of, named_posture
 
 __all__ = ["EngineName", "ModelOptions", "pairs"]
 
@@ -65,33 +65,15 @@ class ModelOptions:
         typer.Option("--set", metavar="NAME=VALUE", help='Change a parameter, e.g. "steer_axis_tilt=18.5 deg".'),
     ] = None
 
+    @cached_property
     def sitting(self) -> Options:
-        """Return how the rider sits and what is sprung, as the makers of models take it.
-
-        Raises
-        ------
-        InputError
-            For a name that is not known, or a value that is not allowed.
-        """
-        known = self.posture in POSTURES or self.posture in shipped("posture")
-        return Options(
-            self.posture if known else load_posture(self.posture),
-            self.shoulder,
-            self.arms,
-            self.torso_lean,
-            _amounts("--spring", self.springs, "N*m/rad", "N/m"),
-            _amounts("--damper", self.dampers, "N*m*s/rad", "N*s/m"),
-        )
-
-    @property
-    def words(self) -> str:
-        """What is not by default, for headings: ", straight arms, torso lean, spring at steer 10"."""
-        told = [] if self.arms is None else [f"{self.arms} arms"]
-        told += [] if self.shoulder is None else [f"{self.shoulder} shoulders"]
-        told += ["torso lean"] if self.torso_lean else []
-        for what, texts in (("spring", self.springs), ("damper", self.dampers)):
-            told += [f"{what} at {joint} {value}" for joint, value in pairs(f"--{what}", texts).items()]
-        return "".join(f", {text}" for text in told)
+        """How the rider sits and what is sprung, as the makers of models take it."""
+        plain = Options(named_posture(self.posture), self.shoulder, self.arms, self.torso_lean)
+        if not self.springs and not self.dampers:
+            return plain
+        hands = {"hands", *(loop.name for loop in mechanism_of(plain).loops)}
+        springs = _amounts("--spring", self.springs, "N*m/rad", "N/m", hands)
+        return replace(plain, springs=springs, dampers=_amounts("--damper", self.dampers, "N*m*s/rad", "N*s/m", hands))
 
 
 def pairs(option: str, texts: list[str] | None) -> dict[str, str]:
@@ -120,12 +102,12 @@ def pairs(option: str, texts: list[str] | None) -> dict[str, str]:
     return found
 
 
-def _amounts(option: str, texts: list[str] | None, turning: str, sliding: str) -> dict[str, float]:
-    """Return stiffness or damping by joint in SI; hands give way along lines, all else turns."""
+def _amounts(option: str, texts: list[str] | None, turning: str, sliding: str, hands: set[str]) -> dict[str, float]:
+    """Return stiffness or damping in SI by joint; the unit is that of a hinge, or of a point where hands are held."""
     amounts = {}
     for joint, text in pairs(option, texts).items():
         try:
-            amounts[joint] = parse_quantity(text, sliding if joint.split()[-1] in {"hand", "hands"} else turning).value
+            amounts[joint] = parse_quantity(text, sliding if joint in hands else turning).value
         except InputError as error:
             raise error.at(f"{option} {joint}") from None
     return amounts

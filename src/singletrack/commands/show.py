@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from singletrack.analysis.outline import outline
 from singletrack.analysis.summary import derived, results
-from singletrack.commands.model import model_from, warn_of_oddities
+from singletrack.body.oddities import warn_of_oddities
+from singletrack.commands.model import model_from
 from singletrack.commands.model_options import ModelOptions
 from singletrack.commands.options import ThingArgument
 from singletrack.errors import InputError
@@ -33,4 +34,4 @@ def run(name: ThingArgument, options: ModelOptions) -> None:
     for each in (made.bicycle, made.rider):
         if each is not None:
             print_record(console, each, derived(each))
-    print_results(console, results(made.model, made.bicycle, made.rider, made.sitting), made.title)
+    print_results(console, results(made.model, made.bicycle, made.rider, options.sitting), made.title)

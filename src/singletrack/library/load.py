@@ -35,10 +35,13 @@ def shipped(kind: str) -> dict[str, Traversable]:
     Examples
     --------
     >>> list(shipped("bicycle"))
-    ['benchmark', 'browser', 'kooijman-2008', 'stratos']
+    ['benchmark', 'browser', 'browser-2012', 'kooijman-2008', 'stratos', 'stratos-2012']
     """
     folder = resources.files("singletrack") / "data" / f"{kind}s"
-    files = sorted((file for file in folder.iterdir() if file.name.endswith(".toml")), key=lambda file: file.name)
+    files = sorted(
+        (file for file in folder.iterdir() if file.name.endswith(".toml")),
+        key=lambda file: file.name.removesuffix(".toml"),
+    )
     return {file.name.removesuffix(".toml"): file for file in files}
 
 

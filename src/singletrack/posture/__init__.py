@@ -4,7 +4,7 @@ from singletrack.posture.bodies import SlavedBodies, slaved_bodies
 from singletrack.posture.mechanism import HANDLEBAR, Mechanism
 from singletrack.posture.options import ARMS, POSTURES, SHOULDERS, STEER, Options, input_name
 from singletrack.posture.seated import Joint, Loop, Posture, seat, steer_axis
-from singletrack.posture.shipped import TORSO_LEAN, load_posture
+from singletrack.posture.shipped import TORSO_LEAN, load_posture, mechanism_of, named_posture
 from singletrack.posture.steered import steered_skeleton
 
 __all__ = [
@@ -22,6 +22,8 @@ __all__ = [
     "SlavedBodies",
     "input_name",
     "load_posture",
+    "mechanism_of",
+    "named_posture",
     "seat",
     "slaved_bodies",
     "steer_axis",

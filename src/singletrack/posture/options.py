@@ -92,6 +92,20 @@ class Options:
         """The posture's name."""
         return self.posture if isinstance(self.posture, str) else self.posture.name
 
+    @property
+    def title(self) -> str:
+        """The posture's name with what else is asked for, in words.
+
+        >>> Options("leaned", arms="bent", torso_lean=True, springs={"torso lean": 100.0}).title
+        'leaned, arms bent, torso lean, spring at torso lean'
+        """
+        parts = [self.name]
+        parts += [f"shoulder {self.shoulder}"] if self.shoulder else []
+        parts += [f"arms {self.arms}"] if self.arms else []
+        parts += ["torso lean"] if self.torso_lean else []
+        parts += [f"spring at {joint}" for joint in self.springs] + [f"damper at {joint}" for joint in self.dampers]
+        return ", ".join(parts)
+
     def require_rider(self) -> None:
         """Raise InputError if a rider is needed: there is none."""
         for what, wanted in (

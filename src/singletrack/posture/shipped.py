@@ -12,14 +12,14 @@ from singletrack.files.source import read_text
 from singletrack.library import shipped
 from singletrack.posture.mechanism import FRAME, Direction, JointPlan, LoopPlan, Mechanism, Place
 from singletrack.posture.mechanism_file import parse_mechanism
-from singletrack.posture.options import STEER, Options
+from singletrack.posture.options import POSTURES, STEER, Options
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from singletrack.arrays import Array
 
-__all__ = ["TORSO_LEAN", "load_posture", "mechanism_of"]
+__all__ = ["TORSO_LEAN", "load_posture", "mechanism_of", "named_posture"]
 
 #: The hinge along x at the hips of the journal version (2012), under all of the upper body.
 TORSO_LEAN = "torso lean"
@@ -59,9 +59,28 @@ def load_posture(name_or_path: str | Path) -> Mechanism:
     except (OSError, ValueError):  # a name too long, or with a NUL
         there = False
     if not there:
-        known = [*_VARIANTS, *shipped("posture")]
+        known = dict.fromkeys([*POSTURES, *(name for name in shipped("posture") if name not in _variant_files())])
         raise InputError(f"{unknown_name('posture', name[:200], known)}, and there is no such file")
     return parse_mechanism(read_text(path), str(path))
+
+
+def named_posture(found: str | Path | Mechanism) -> str | Mechanism:
+    """Return a posture as options take it: a shipped name as it is, a file's mechanism, a mechanism as it is.
+
+    Raises
+    ------
+    InputError
+        If there is no such posture and no such file.
+
+    Examples
+    --------
+    >>> named_posture("leaned")
+    'leaned'
+    """
+    if isinstance(found, Mechanism):
+        return found
+    name = str(found)
+    return name if name in POSTURES or name in shipped("posture") else load_posture(found)
 
 
 def mechanism_of(options: Options) -> Mechanism:
@@ -89,6 +108,10 @@ def mechanism_of(options: Options) -> Mechanism:
     if options.springs or options.dampers:
         mechanism = _sprung(mechanism, options.springs, options.dampers)
     return _with_sliders(mechanism) if any(loop.stiffness is not None for loop in mechanism.loops) else mechanism
+
+
+def _variant_files() -> set[str]:
+    return {name for variants in _VARIANTS.values() for name in variants.values()}
 
 
 @functools.cache
