@@ -11,11 +11,12 @@ from typing import Annotated
 import typer
 
 from singletrack.body.oddities import warn_of_oddities
-from singletrack.errors import InputError, OddityWarning, unknown_name
+from singletrack.errors import InputError, OddityWarning
 from singletrack.library import load_bicycle, load_rider
 from singletrack.library.load import override
 from singletrack.parameters import Bicycle, Rider
 from singletrack.parameters.bicycle import FRAME_GEOMETRY
+from singletrack.parameters.hints import unknown_parameter
 from singletrack.parameters.units import parse_quantity
 from singletrack.posture import ARMS, POSTURES, SHOULDERS, Options, mechanism_of, named_posture
 from singletrack.public import CoefficientMatrices
@@ -138,7 +139,7 @@ def seated(bicycle: Bicycle, options: ModelOptions) -> tuple[Bicycle, Rider | No
         if rider is None and name in theirs:
             raise InputError(f"--set {name}: is a parameter of a rider, and there is no --rider")
         if name not in own and name not in theirs:
-            raise InputError(f"--set: {unknown_name('parameter', name, [*own, *(theirs if rider else [])])}")
+            raise unknown_parameter("", name, [*own, *(theirs if rider else [])]).at("--set")
         if rider is None and name in FRAME_GEOMETRY:
             _warn(f"--set {name}: changes no equation without a --rider (frame geometry says where a rider sits)")
     bicycle = override(bicycle, {name: text for name, text in changes.items() if name in own})
