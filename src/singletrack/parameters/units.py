@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from math import isinf
 from typing import Any
 
-from singletrack.errors import InputError
+from singletrack.errors import InputError, shown
 
 __all__ = ["Quantity", "parse_quantity", "unit_registry"]
 
@@ -93,10 +93,10 @@ def parse_quantity(found: object, unit: str) -> Quantity:
     singletrack.errors.InputError: '5 kg' has a unit that is no length; allowed: a number in m, or one with ...
     """
     if isinstance(found, bool) or not isinstance(found, str | int | float):
-        raise _refusal(found, f"{found!r} is not a number", unit)
+        raise _refusal(found, f"{shown(found)} is not a number", unit)
     if not isinstance(found, str):
         return Quantity(_to_float(found, unit))
-    if _is_foreign(found):
+    if _is_foreign(found[:_LONGEST]):
         raise _refusal(found, f"{found[:60]!r} has digits other than 0 to 9", unit)
     match = _QUANTITY.fullmatch(found.strip()) if len(found) <= _LONGEST else None
     if match is None:
@@ -125,7 +125,8 @@ def _to_float(found: float, unit: str) -> float:
     try:
         return float(found)
     except OverflowError:
-        raise _refusal(found, f"a whole number of {len(str(found))} digits is too large", unit) from None
+        digits = int(found).bit_length() * 30103 // 100000 + 1
+        raise _refusal(found, f"a whole number of {digits} digits is too large", unit) from None
 
 
 def _scaled(value: float, factor: float) -> float:
