@@ -3,14 +3,14 @@
 >>> from singletrack import coefficients, load_bicycle, load_rider
 >>> model = coefficients(load_bicycle("stratos"), load_rider("rider-a"), posture="leaned")
 >>> model.critical_speeds().stable_ranges
-[(5.90..., 9.44...)]
+[(5.99..., 9.58...)]
 """
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from singletrack.errors import InputError, PostureError, SingletrackError
+from singletrack.errors import InputError, OddityWarning, PostureError, SingletrackError
 from singletrack.version import __version__
 
 if TYPE_CHECKING:
@@ -23,6 +23,7 @@ __all__ = [
     "Bicycle",
     "CoefficientMatrices",
     "InputError",
+    "OddityWarning",
     "PostureError",
     "Rider",
     "SingletrackError",

@@ -57,7 +57,7 @@ def test_show_with_a_rider_draws_and_gives_the_posture(capsys):
     show.run("stratos", ModelOptions(rider="rider-a", posture="leaned"))
     printed = capsys.readouterr().out
     assert "with rider-a, leaned" in printed
-    assert "stable          5.90" in printed
+    assert "stable          5.99" in printed
     assert "⠁" in printed
 
 

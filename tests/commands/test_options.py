@@ -62,10 +62,10 @@ def test_what_is_set_without_effect_is_said(command, run):
 
 @pytest.mark.parametrize("command", MODEL_COMMANDS)
 def test_what_looks_odd_is_said_by_every_command_that_computes(command, run):
-    code, out, err = run(command, "stratos", "--set", "wheel_base=103.7")
+    code, out, err = run(command, "stratos", "--set", "wheel_base=13.7")
     assert code == 0
     assert err.count("\n") == 1
-    assert "singletrack: warning: wheel_base = 103.7 m is outside what is usual" in err
+    assert "singletrack: warning: stratos: wheel_base = 13.7 m is outside what is usual" in err
     assert "warning" not in out
 
 
@@ -80,8 +80,8 @@ def test_files_that_look_odd_are_said_by_the_file_commands(run, tmp_path):
     odd.write_text(odd.read_text(encoding="utf-8").replace('"0.0563 m"', '"-0.05 m"'), encoding="utf-8")
     code, _, err = run("convert", str(odd), str(copy))
     assert code == 0
-    assert "singletrack: warning: trail = -0.05 m is negative" in err
-    assert "singletrack: warning: trail = -0.05 m is negative" in run("show", str(odd))[2]
+    assert "singletrack: warning: stratos: trail = -0.05 m is negative" in err
+    assert "singletrack: warning: stratos: trail = -0.05 m is negative" in run("show", str(odd))[2]
 
 
 def test_show_says_the_same_as_the_commands_for_one_thing_each(run):

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from singletrack.analysis.uncertainty import linear_uncertainty
+from singletrack.body.oddities import frame_oddities
 from singletrack.body.reach import seat_oddities
-from singletrack.body.skeleton import frame_faults, frame_points
 from singletrack.errors import InputError
 from singletrack.linear import CriticalSpeeds, critical_speeds
 from singletrack.mechanics.rigid import PlanarBody, combine, principal_in_plane
@@ -22,7 +22,7 @@ from singletrack.parameters.plausibility import Oddity, oddities
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from singletrack.measuring.pendulums import Measurement
+    from singletrack.measuring.measurement import Measurement
     from singletrack.posture import Options
 
 __all__ = ["Quantity", "Results", "all_oddities", "derived", "measured_speeds", "results"]
@@ -92,7 +92,7 @@ def _of_bicycle(b: Bicycle) -> Iterator[Quantity]:
 
 def _of_rider(r: Rider) -> Iterator[Quantity]:
     group = "segments"
-    yield Quantity(group, "torso", (float(r.torso_width), float(r.torso_thickness)), "m", "wide, thick")
+    yield Quantity(group, "torso", tuple(float(size) for size in r.torso_section), "m", "wide, thick")
     for name in ("head", "torso", "upper_arm", "lower_arm", "upper_leg", "lower_leg"):
         mass = float(getattr(r, f"{name}_mass_fraction")) * float(r.rider_mass)
         yield Quantity(group, f"{name.replace('_', ' ')} mass", (mass,), "kg", "one side" if "_" in name else "")
@@ -186,15 +186,7 @@ def all_oddities(record: Bicycle | Rider, rider: Rider | None = None) -> tuple[O
     ['trail']
     """
     if rider is None:
-        return (*oddities(record), *(_frame_oddities(record) if isinstance(record, Bicycle) else ()))
+        return (*oddities(record), *(frame_oddities(record) if isinstance(record, Bicycle) else ()))
     if not isinstance(record, Bicycle):
         raise InputError(f"{record.name}: is a rider, must be a bicycle to seat {rider.name} on")
     return (*oddities(record, rider), *seat_oddities(record, rider))
-
-
-def _frame_oddities(bicycle: Bicycle) -> Iterator[Oddity]:
-    """Yield what keeps the tubes from being where the geometry has them: no fault as long as nobody sits there."""
-    if not bicycle.missing_geometry():
-        for fault in frame_faults(frame_points(bicycle), bicycle):
-            if np.any(fault.bad):
-                yield Oddity(fault.parameters[0], f"{fault.reason()}; no rider can be seated")
