@@ -88,7 +88,7 @@ def test_mutants(slider_crank, robot):
     chance = random.Random(20001103)
     short = slider_crank.replace("TIMESTEP 100 5.0", "TIMESTEP 3 0.02")
     seeds = [short, robot, robot.replace("\nxm 4 ", "\ntimestep 0.01 2\nxm 4 "), FLEXIBLE]
-    ran = refused = 0
+    ran = refused = nameless = 0
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         for number in range(2000):
@@ -100,7 +100,8 @@ def test_mutants(slider_crank, robot):
                 model.linearise(motion)
                 ran += 1
             except SingletrackError as error:
-                assert str(error).startswith("mutant.dat"), str(error)
                 refused += 1
+                nameless += not str(error).startswith("mutant.dat")
     assert ran > 100
+    assert nameless == 0
     assert refused > 300

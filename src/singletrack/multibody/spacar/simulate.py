@@ -55,7 +55,7 @@ class _Equations:
         if self.count > self.most:
             raise ModelError(
                 f"{self.layout.description.where}: at {time:.6g} s the motion had taken {self.most} evaluations;"
-                " is a deformation very stiff, a freedom almost without mass? Make it fixed, ask for more steps or a shorter time"
+                " make what is very stiff or almost massless fixed, or ask for more steps or a shorter time"
             )
         if not np.all(np.isfinite(y)):
             raise ModelError(f"{self.layout.description.where}: the motion is not finite at {time:.6g} s")
