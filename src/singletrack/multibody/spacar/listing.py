@@ -33,7 +33,7 @@ def listing(model: Spacar) -> str:
     Examples
     --------
     >>> from singletrack.multibody.spacar.model import read_text
-    >>> print(listing(read_text("PLHINGE 1 1 2\\nFIX 1\\nDYNE 1 1\\nMASS 2 2.0", "turn.dat")))  # doctest: +ELLIPSIS
+    >>> print(listing(read_text("PLHINGE 1 1 2\nFIX 1\nDYNE 1 1\nMASS 2 2.0", "turn.dat")))  # doctest: +ELLIPSIS
     turn.dat: dialect of delft, in the plane, 2 nodes, 1 elements
     ...
     """
