@@ -160,7 +160,9 @@ def bicycle_model(bicycle: Bicycle, rider: Rider | None = None, options: Options
         limits=riding_limits(elements["joints"], elements["closures"], independent),
         parameters=numbers.values,
     )
-    key = (numbers.key(), system.coordinates)
+    links = tuple((joint.name, joint.parent, joint.child, joint.coordinates) for joint in system.joints)
+    loops = tuple((closure.name, closure.first, closure.second) for closure in system.closures)
+    key = (numbers.key(), links, loops)
     if key not in KINDS:
         while len(KINDS) >= MOSTKINDS:
             KINDS.pop(next(iter(KINDS)))
