@@ -111,6 +111,7 @@ def steady_motion(
 def plan(
     start: State, given: Mapping[str, float], rates: Mapping[str, float], resting: Sequence[str], adjust: Sequence[str]
 ) -> Search:
+    """Return what is sought, for what is given by name."""
     system, parts = start.model.system, start.partition
     free = [system.coordinates[i] for i in parts.independent_coordinates]
     for name in resting:
