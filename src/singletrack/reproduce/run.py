@@ -5,6 +5,8 @@ from __future__ import annotations
 import json
 from typing import TYPE_CHECKING
 
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
+
 from singletrack.body.skeleton import POINT_NAMES
 from singletrack.output import prepare_folder, write_whole
 from singletrack.present.drawings import posture_figure
