@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 
 from jinja2 import Environment, PackageLoader, StrictUndefined
 
-from singletrack import __version__
 from singletrack.present.tables import critical_speeds_text
+from singletrack.version import __version__
 
 if TYPE_CHECKING:
     from singletrack.reproduce.cases import Case
