@@ -8,11 +8,12 @@ from dataclasses import dataclass
 
 from singletrack.body.oddities import warn_of_oddities
 from singletrack.commands.model_options import ModelOptions, pairs
-from singletrack.errors import InputError, OddityWarning, unknown_name
+from singletrack.errors import InputError, OddityWarning
 from singletrack.library import load_bicycle, load_rider
 from singletrack.library.load import override
 from singletrack.parameters import Bicycle, Rider
 from singletrack.parameters.bicycle import FRAME_GEOMETRY
+from singletrack.parameters.hints import unknown_parameter
 from singletrack.public import CoefficientMatrices
 
 __all__ = ["Made", "model_from", "seated"]
@@ -73,7 +74,7 @@ def seated(bicycle: Bicycle, options: ModelOptions) -> tuple[Bicycle, Rider | No
         if rider is None and name in theirs:
             raise InputError(f"--set {name}: is a parameter of a rider, and there is no --rider")
         if name not in own and name not in theirs:
-            raise InputError(f"--set: {unknown_name('parameter', name, [*own, *(theirs if rider else [])])}")
+            raise unknown_parameter("", name, [*own, *(theirs if rider else [])]).at("--set")
         if rider is None and name in FRAME_GEOMETRY:
             _warn(f"--set {name}: changes no equation without a --rider (frame geometry says where a rider sits)")
     bicycle = override(bicycle, {name: text for name, text in changes.items() if name in own})
