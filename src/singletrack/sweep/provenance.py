@@ -5,8 +5,10 @@ from __future__ import annotations
 import dataclasses
 import hashlib
 import json
-from importlib.metadata import version
 from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import scipy
 
 from singletrack.parameters import Rider
 from singletrack.version import __version__
@@ -28,7 +30,7 @@ def programs() -> dict[str, str]:
 
     The compiled kernels are not among them: they give the bits of the plain ones.
     """
-    return {"singletrack": __version__, "numpy": version("numpy"), "scipy": version("scipy")}
+    return {"singletrack": __version__, "numpy": np.__version__, "scipy": scipy.__version__}
 
 
 def record_values(record: Bicycle | Rider) -> dict[str, Any]:

@@ -204,9 +204,9 @@ def tidy(output: Path) -> None:
 def _remove(partial: Path) -> None:
     """Remove the folder of an unfinished sweep, but nothing that is not ours."""
     shutil.rmtree(partial / DATA, ignore_errors=True)
-    for name in (JOURNAL, LOCK):
+    for path in (*partial.glob(f"*{TEMPORARY}"), partial / JOURNAL, partial / LOCK):
         with suppress(OSError):
-            (partial / name).unlink(missing_ok=True)
+            path.unlink(missing_ok=True)
     with suppress(OSError):
         partial.rmdir()
 
