@@ -47,7 +47,7 @@ def test_uncertainties_are_kept(write):
     [
         ('trail = "0.0563 m"', 'trail = "nan m"', "line 8: trail = nan m, must be a finite number"),
         ('"7.22 kg"', '"-7.22 kg"', "rear_frame_mass = -7.22 kg, must be greater than zero"),
-        ('"16.9 deg"', "16.9", "line 9: steer_axis_tilt = 16.9 rad .968.299 deg., must be between 0 and 90 deg"),
+        ('"16.9 deg"', "16.9", "line 9: steer_axis_tilt = 16.9 rad .968.299 deg., must be between -90 and 90 deg"),
         ('"16.9 deg"', '"16.9 mm"', "line 9: steer_axis_tilt = '16.9 mm' has a unit that is no angle"),
         ('"1.037 m"', '"1.037 deg"', "line 7: wheel_base = '1.037 deg' has a unit that is no length"),
         ("wheel_base", "wheelbase", "line 7: unknown bicycle parameter 'wheelbase'; did you mean wheel_base"),
@@ -78,7 +78,7 @@ def test_wrong_values(write, old, new, message):
         (b"[parameters", "not valid TOML"),
         (b"a = " + b"[" * 20000, "not valid TOML"),
         (b'kind = "bicycle"\nparameters = 3\n', "has no .parameters."),
-        (b"# " + b"x" * 1_100_000, "is larger than 1000 kB"),
+        (b"# " + b"x" * 1_100_000, "is larger than 200 kB"),
     ],
 )
 def test_files_that_are_none(write, content, message):

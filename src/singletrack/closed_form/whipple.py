@@ -72,8 +72,8 @@ def whipple_matrices(bicycle: Bicycle) -> Matrices:
     steer_z = front.mass * ahead * front.x + front.xz * sin + front.zz * cos
 
     mu, kappa = b["trail"] * cos / b["wheel_base"], cos / b["wheel_base"]
-    front_spin = b["front_wheel_inertia_yy"] / b["front_wheel_radius"]
-    spin = b["rear_wheel_inertia_yy"] / b["rear_wheel_radius"] + front_spin
+    front_spin = _spin(xp, b, "front")
+    spin = _spin(xp, b, "rear") + front_spin
     moment = front.mass * ahead + mu * total.mass * total.x
     height_moment = total.mass * total.z
 
@@ -90,6 +90,12 @@ def whipple_matrices(bicycle: Bicycle) -> Matrices:
         matrix2(height_moment, -moment, -moment, -moment * sin),
         matrix2(0.0, kappa * (spin - height_moment), 0.0, kappa * (moment + front_spin * sin)),
     )
+
+
+def _spin(xp: Any, b: dict[str, Any], end: str) -> Array:
+    """Return a wheel's angular momentum over the speed: zero for a skate, without radius and inertia."""
+    radius = b[f"{end}_wheel_radius"]
+    return b[f"{end}_wheel_inertia_yy"] / xp.where(radius == 0, 1.0, radius)
 
 
 def _total(b: dict[str, Any]) -> _System:

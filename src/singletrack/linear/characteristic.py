@@ -13,7 +13,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from singletrack.arrays import Array, as_arrays, stack, vector
+from singletrack.arrays import Array, as_arrays, namespace, stack, vector
 
 if TYPE_CHECKING:
     from singletrack.model import LinearModel
@@ -89,12 +89,12 @@ def characteristic_polynomial(model: LinearModel) -> CharacteristicPolynomial:
     >>> abs(polynomial.at([0.0])[0, 1::2]).tolist()
     [0.0, 0.0]
     """
-    xp, (g,) = as_arrays(model.gravity)
+    _, (g,) = as_arrays(model.gravity)
     entries = stack(model.matrices, -3)  # (..., 4, 2, 2)
     e11, e12, e21, e22 = (entries[..., i, j] for i in (0, 1) for j in (0, 1))
     # For matrices A and B of the four, [A, B] = A11 B22 - A12 B21: det A = [A, A] and D(A, B) = [A, B] + [B, A].
     products = e11[..., :, None] * e22[..., None, :] - e12[..., :, None] * e21[..., None, :]
-    mixed = products + xp.matrix_transpose(products)
+    mixed = products + namespace(products).matrix_transpose(products)
     M, C1, K0, K2 = range(4)
     return CharacteristicPolynomial(
         products[..., M, M, None],

@@ -16,9 +16,10 @@ import numpy as np
 
 from singletrack.arrays import Array, Fault, is_concrete, namespace, valid_mask
 from singletrack.errors import InputError
+from singletrack.model.written import read_fields
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Mapping, Sequence
 
     import xarray
 
@@ -135,7 +136,7 @@ class LinearModel:
         """Return some designs of a batch: an index, slice or mask of the batch's axes."""
         whole = self.broadcast_to(self.shape)
         of_batch = index if isinstance(index, tuple) else (index,)
-        of_matrix = (*of_batch, slice(None), slice(None)) if Ellipsis in of_batch else of_batch
+        of_matrix = (*of_batch, slice(None), slice(None)) if any(i is Ellipsis for i in of_batch) else of_batch
         some: dict[str, Any] = {name: getattr(whole, name)[of_matrix] for name in (*_SQUARE, "B")}
         some["gravity"] = whole.gravity[of_batch]
         return dataclasses.replace(whole, **some, faults=tuple(fault[index] for fault in whole.faults))
@@ -148,6 +149,25 @@ class LinearModel:
 
         names = {"coordinates": list(self.coordinates), "inputs": list(self.inputs)}
         return listed("M", "C1", "K0", "K2", "gravity") | names | listed("C0", "S0", "B")
+
+    @classmethod
+    def from_dict(cls, data: Mapping[str, Any]) -> Self:
+        """Return the model that :meth:`to_dict` wrote; ``C0, S0, B``, the names and gravity (9.81) may be left out.
+
+        Raises
+        ------
+        InputError
+            If matrices are missing, unknown, of another shape or not finite, M is not symmetric positive definite or
+            K0 not symmetric; of a batch, such designs become :attr:`faults`.
+
+        Examples
+        --------
+        >>> from singletrack import coefficients, load_bicycle
+        >>> model = coefficients(load_bicycle("benchmark"))
+        >>> LinearModel.from_dict(model.to_dict()).to_dict() == model.to_dict()
+        True
+        """
+        return cls(**read_fields(data, COORDINATES, INPUTS))
 
     def to_xarray(self) -> xarray.Dataset:
         """Return the matrices labelled; batch dimensions are called design_0, design_1, ..."""

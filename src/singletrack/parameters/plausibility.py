@@ -110,7 +110,9 @@ def _angles(record: Record) -> Iterator[Oddity]:
         if description.unit != "rad" or value is None:
             continue
         degrees = math.degrees(value)
-        if value < _SMALLEST_ANGLE:
+        if value < 0:
+            yield Oddity(name, f"{name} = {degrees:g} deg is negative: the steer axis leans forward, top ahead")
+        elif 0 < value < _SMALLEST_ANGLE:
             text = f"{name} = {degrees:g} deg is hardly an angle: {degrees:g} radians ({math.degrees(degrees):.3g} deg)"
             yield Oddity(name, f"{text} written as degrees?")
         elif name == "steer_axis_tilt" and degrees > 45:

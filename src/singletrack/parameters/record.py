@@ -13,7 +13,8 @@ from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 from singletrack.arrays import Array, is_concrete
 from singletrack.arrays.faults import Fault, refuse_single
-from singletrack.errors import InputError, unknown
+from singletrack.errors import InputError
+from singletrack.parameters.hints import unknown_parameter
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -24,7 +25,9 @@ __all__ = ["ALLOWED", "Parameter", "Record", "parameter"]
 ALLOWED: dict[str, tuple[str, Callable[[Any], Any]]] = {
     "any": ("a finite number", lambda x: x == x),  # noqa: PLR0124  # true for all finite numbers
     "positive": ("greater than zero", lambda x: x > 0),
+    "not negative": ("zero or more", lambda x: x >= 0),
     "angle": ("between 0 and 90 deg (a bare number is in radians)", lambda x: (x > 0) & (x < 1.5707963267948966)),
+    "tilt": ("between -90 and 90 deg (a bare number is in radians)", lambda x: abs(x) < 1.5707963267948966),
     "above ground": ("less than zero (z points down, the ground is at zero)", lambda x: x < 0),
     "fraction": ("greater than 0 and less than 1", lambda x: (x > 0) & (x < 1)),
 }
@@ -131,7 +134,7 @@ class Record:
         known = [f.name for f in dataclasses.fields(cls)]
         for name in names:
             if name not in known and name not in also:
-                raise unknown(f"{cls.kind} parameter", name, cls.descriptions())
+                raise unknown_parameter(cls.kind, name, cls.descriptions())
 
     def faults(self) -> tuple[Fault, ...]:
         """Return what is wrong with the values, one fault per rule, with a mask over the batch."""
@@ -178,7 +181,7 @@ def _faults_of_value(name: str, value: Array, description: Parameter) -> Iterato
     finite = np.isfinite(array)
     bad = ~finite | ~np.where(finite, test(np.where(finite, array.real, 1.0)), False)  # noqa: FBT003
     found = f"{name} = {{found:.6g}}{unit}"
-    if description.allowed == "angle":
+    if description.allowed in {"angle", "tilt"}:
         found += " ({degrees:.6g} deg)"
     values = {"found": array, "degrees": np.degrees(array.real)}
     yield Fault(bad, f"{found}, must be {words}", values, InputError, (name,), words)

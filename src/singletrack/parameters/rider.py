@@ -52,6 +52,9 @@ class Rider(Record):
     forward_lean_angle: Array = parameter(
         "rad", "λfl", "torso from the horizontal, on this bicycle", "angle", group=_BODY, optional=True
     )
+    elbow_drop_angle: Array = parameter(
+        "rad", "λed", "elbows turned out less far than hanging down (90 deg)", "angle", group=_BODY, optional=True
+    )
     head_circumference: Array = parameter("m", "ch", "around the head", group=_BODY)
     hip_joint_to_hip_joint: Array = parameter("m", "lhh", "between the hip joints", group=_BODY)
     lower_arm_circumference: Array = parameter("m", "cla", "around the lower arm", group=_BODY)
@@ -60,6 +63,12 @@ class Rider(Record):
     lower_leg_length: Array = parameter("m", "lll", "knee to pedal", group=_BODY)
     shoulder_to_shoulder: Array = parameter("m", "lss", "between the shoulder joints", group=_BODY)
     torso_length: Array = parameter("m", "lto", "hip joints to shoulder joints", group=_BODY)
+    torso_thickness: Array = parameter(
+        "m", "tto", "front to back; else from the chest's circumference", group=_BODY, optional=True
+    )
+    torso_width: Array = parameter(
+        "m", "wto", "side to side; else between the insides of the upper arms", group=_BODY, optional=True
+    )
     upper_arm_circumference: Array = parameter("m", "cua", "around the upper arm", group=_BODY)
     upper_arm_length: Array = parameter("m", "lua", "shoulder to elbow", group=_BODY)
     upper_leg_circumference: Array = parameter("m", "cul", "around the upper leg", group=_BODY)
@@ -103,14 +112,18 @@ class Rider(Record):
         return self.replace(forward_lean_angle=angle, standard_deviations=deviations)
 
     @property
-    def torso_width(self) -> Array:
-        """Width of the torso, along y, in m: between the insides of the upper arms."""
-        return self.shoulder_to_shoulder - self.upper_arm_circumference / pi
+    def torso_section(self) -> tuple[Array, Array]:
+        """Width (along y) and thickness of the torso in m.
 
-    @property
-    def torso_thickness(self) -> Array:
-        """Thickness of the torso in m: a stadium of this thickness and the torso's width has the chest's girth."""
-        return (self.chest_circumference - 2 * self.torso_width) / (pi - 2)
+        As given; else the width is that between the insides of the upper arms, and a stadium of that width and the
+        thickness has the chest's circumference (a given width leaves the thickness as derived).
+        """
+        width = self.shoulder_to_shoulder - self.upper_arm_circumference / pi
+        thickness = (self.chest_circumference - 2 * width) / (pi - 2)
+        return (
+            width if self.torso_width is None else self.torso_width,
+            thickness if self.torso_thickness is None else self.torso_thickness,
+        )
 
     def _physical_faults(self) -> Iterator[Fault]:
         import numpy as np
@@ -118,7 +131,12 @@ class Rider(Record):
         inputs = tuple(getattr(self, name) for name in _TORSO)
         if not all(is_concrete(value) and np.asarray(value).dtype.kind in "iufc" for value in inputs):
             return
-        width, thickness = np.real(self.torso_width), np.real(self.torso_thickness)
+        width = np.real(self.shoulder_to_shoulder - self.upper_arm_circumference / pi)
+        thickness = np.real(self.chest_circumference - 2 * width) / (pi - 2)
+        if self.torso_thickness is not None:
+            if self.torso_width is not None:
+                return
+            thickness = np.ones_like(thickness)
         finite = np.isfinite(width) & np.isfinite(thickness)
         found = {"width": width, "twice": 2 * width}
         found |= dict(zip(_TORSO, (np.asarray(value) for value in inputs), strict=True))

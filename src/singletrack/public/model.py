@@ -8,13 +8,15 @@ from typing import TYPE_CHECKING, Self
 from singletrack import closed_form
 from singletrack.linear import CriticalSpeeds, Modes, StateSpace, critical_speeds, eigenvalues, modes, state_space
 from singletrack.model import LinearModel
-from singletrack.posture import Options
+from singletrack.posture import Options, named_posture
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
+    from pathlib import Path
 
     from singletrack.arrays import Array
     from singletrack.parameters import Bicycle, Rider
+    from singletrack.posture import Mechanism
 
 __all__ = ["CoefficientMatrices", "coefficients"]
 
@@ -66,7 +68,7 @@ class CoefficientMatrices(LinearModel):
 def coefficients(
     bicycle: Bicycle,
     rider: Rider | None = None,
-    posture: str = "rigid",
+    posture: str | Path | Mechanism = "rigid",
     shoulder: str | None = None,
     *,
     arms: str | None = None,
@@ -84,8 +86,9 @@ def coefficients(
     bicycle : Bicycle
     rider : Rider, optional
         Without one, the bicycle as measured.
-    posture : {"rigid", "leaned", "upright"}
-        ``rigid``: hands free; ``leaned``: stretched arms, twisting torso; ``upright``: flexed arms, still torso.
+    posture : str, path or Mechanism
+        ``rigid``: hands free; ``leaned``: stretched arms, twisting torso; ``upright``: flexed arms, still torso;
+        another shipped posture, a mechanism file, or a mechanism.
     shoulder : {"abduction", "axial"}, optional
         Second axis of the shoulder joint; by default abduction for ``leaned``, axial for ``upright``.
     arms : {"straight", "bent"}, optional
@@ -115,5 +118,5 @@ def coefficients(
     >>> round(float(model.M[1, 1]), 4), round(float(model.gravity * model.K0[1, 1]), 4)
     (0.4614, 2.3268)
     """
-    options = Options(posture, shoulder, arms, torso_lean, springs or {}, dampers or {})
+    options = Options(named_posture(posture), shoulder, arms, torso_lean, springs or {}, dampers or {})
     return CoefficientMatrices.of(closed_form.coefficients(bicycle, rider, options))

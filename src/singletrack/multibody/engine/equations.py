@@ -55,7 +55,8 @@ class Equations:
     energy
         (q, u, p) -> kinetic and potential energy, J.
     contacts
-        (q, p) -> contact points (3, wheels), headings (3, wheels).
+        (q, p) -> contact points (3, wheels), headings (3, wheels), how upright the wheels are (1, wheels): one upright,
+        zero where the axle is vertical.
     loop_wrenches
         (q, m, p) -> forces (3, loops), torques (3, loops) of first on second bodies.
     sensors
@@ -162,6 +163,7 @@ def derive(system: System) -> Equations:
     change = ca.jtimes(ca.vertcat(residual, acceleration_level), ca.vertcat(s.q, s.u), ca.vertcat(dq, du))
     points = _matrix([s.contacts[wheel.name].point for wheel in system.wheels])
     headings = _matrix([s.contacts[wheel.name].heading for wheel in system.wheels])
+    levels = ca.horzcat(ca.SX(1, 0), *(s.contacts[wheel.name].level for wheel in system.wheels))
     outputs = {
         "holonomic": ((s.q,), (s.phi, jacobian[: s.phi.numel(), :])),
         "kinetics": ((s.q,), (jacobian, mass)),
@@ -175,7 +177,7 @@ def derive(system: System) -> Equations:
             (s.q, s.u),
             (kinetic_energy(system, s.frames), potential_energy(system, s.frames, s.gravity, s.q)),
         ),
-        "contacts": ((s.q,), (points, headings)),
+        "contacts": ((s.q,), (points, headings, levels)),
         "loop_wrenches": ((s.q, s.m), _loop_wrenches(system, s)),
         "sensors": ((s.q, s.u), (_sensor_outputs(system, s.frames),)),
     }
