@@ -4,13 +4,16 @@ VENV ?= .venv
 BIN := $(VENV)/bin
 TOOLS ?= .tools
 
-.PHONY: reproduce test check format benchmark setup setup-dev lock audit kill mutants clean
+.PHONY: reproduce test fuzz check format benchmark setup setup-dev lock audit kill mutants clean
 
 reproduce: setup
 	$(BIN)/singletrack reproduce
 
 test: setup-dev check
 	$(BIN)/python -m pytest -n auto
+
+fuzz: setup-dev
+	$(BIN)/python tests/fuzz/run.py --count 6000
 
 check: setup-dev
 	$(BIN)/ruff check .
@@ -75,3 +78,17 @@ mutants: setup-dev
 
 clean:
 	rm -rf $(VENV) $(TOOLS) build dist singletrack-output .mypy_cache .ruff_cache .import_linter_cache
+
+# The page in the browser: programs traced from the equations, sources checked and built (needs npm), result shipped.
+.PHONY: page page-check page-programs
+# Types of the page's sources.
+page-check:
+	cd web && npm ci --no-audit --no-fund --loglevel=error && npm run check
+
+page-programs: setup-dev
+	$(BIN)/python -m singletrack.webpage.generate web/src/generated
+
+page: page-programs
+	cd web && npm ci --no-audit --no-fund --loglevel=error && npm run build
+	cp web/dist/index.html src/singletrack/webpage/static/page.html
+	$(BIN)/python -m singletrack.webpage.sources web > src/singletrack/webpage/static/page.sha256

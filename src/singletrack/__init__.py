@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from singletrack.errors import InputError, PostureError, SingletrackError
+from singletrack.errors import InputError, OddityWarning, PostureError, SingletrackError
 from singletrack.version import __version__
 
 if TYPE_CHECKING:
@@ -18,11 +18,13 @@ if TYPE_CHECKING:
     from singletrack.library import load_bicycle, load_rider
     from singletrack.parameters import Bicycle, Rider
     from singletrack.public import CoefficientMatrices, coefficients
+    from singletrack.webpage import page
 
 __all__ = [
     "Bicycle",
     "CoefficientMatrices",
     "InputError",
+    "OddityWarning",
     "PostureError",
     "Rider",
     "SingletrackError",
@@ -30,6 +32,7 @@ __all__ = [
     "coefficients",
     "load_bicycle",
     "load_rider",
+    "page",
     "spacar",
 ]
 
@@ -41,6 +44,7 @@ _LAZY = {
     "coefficients": "singletrack.public",
     "load_bicycle": "singletrack.library",
     "load_rider": "singletrack.library",
+    "page": "singletrack.webpage",
 }
 _MODULES = ("spacar",)
 

@@ -19,9 +19,14 @@ __all__ = [
     "PostureError",
     "SingletrackError",
     "nearest",
+    "shown",
     "unknown",
     "unknown_name",
 ]
+
+
+#: Errors that one message tells; whoever made this many has made one mistake, not many.
+_MOST_TOLD = 8
 
 
 class SingletrackError(ValueError):
@@ -98,7 +103,8 @@ class SingletrackError(ValueError):
         for part in self.parts:
             told.append(f"{part.place}: {part.reason}" if part.place != before and part.place else part.reason)
             before = part.place
-        return "; ".join(told)
+        more = [f"and {len(told) - _MOST_TOLD} more"] if len(told) > _MOST_TOLD else []
+        return "; ".join([*told[:_MOST_TOLD], *more])
 
     def of(self, parameter: str) -> SingletrackError:
         """Return an error about a value as one about the parameter that was to have it.
@@ -152,10 +158,62 @@ class ModelError(SingletrackError):
 
 
 class OddityWarning(UserWarning):
-    """Something allowed that looks odd: a value that is seldom meant, an option without effect."""
+    """Something allowed that looks odd: a value that is seldom meant (a trail of 60 m), an option without effect.
+
+    Attributes
+    ----------
+    name, parameter : str
+        Of the bicycle or rider and of the parameter, "" where there is none.
+    found : float
+        What was found, in SI units.
+    expected : str
+        What is usual, in words.
+
+    Examples
+    --------
+    >>> str(OddityWarning("trail = 60 m is odd", name="mine", parameter="trail", found=60.0))
+    'mine: trail = 60 m is odd'
+    """
+
+    def __init__(
+        self, reason: str = "", *, name: str = "", parameter: str = "", found: Any = None, expected: str = ""
+    ) -> None:
+        super().__init__(reason)
+        self.reason = reason
+        self.name = name
+        self.parameter = parameter
+        self.found = found
+        self.expected = expected
+
+    def __str__(self) -> str:
+        return f"{self.name}: {self.reason}" if self.name else self.reason
 
 
 _MOST_LISTED = 12
+
+
+def shown(found: object, longest: int = 60) -> str:
+    """Return what was found as a message shows it: never long, whatever it is.
+
+    Parameters
+    ----------
+    found : object
+    longest : int
+        Characters to show.
+
+    Examples
+    --------
+    >>> shown(list(range(100)), 12), shown(16**10_000)
+    ('[0, 1, 2, 3,...', 'a number of 12042 digits')
+    """
+    try:
+        text = repr(found)
+    except ValueError:  # Python's limit on the digits of whole numbers
+        digits = found.bit_length() * 30103 // 100000 + 1 if isinstance(found, int) else "too many"
+        return f"a number of {digits} digits"
+    except RecursionError:
+        return "something nested too deeply"
+    return text if len(text) <= longest else f"{text[:longest]}..."
 
 
 def nearest(name: str, known: Iterable[str]) -> str:
@@ -166,6 +224,7 @@ def nearest(name: str, known: Iterable[str]) -> str:
     >>> nearest("xyz", ["trail", "wheel_base"])
     ''
     """
+    name = name[:80]  # the comparison takes the product of both lengths
     by_lower = {other.lower(): other for other in known}
     close = difflib.get_close_matches(name.lower(), by_lower, n=1, cutoff=0.6)
     return f"; did you mean {by_lower[close[0]]}?" if close else ""

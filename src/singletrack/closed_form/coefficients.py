@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 __all__ = ["coefficients"]
 
 
+@np.errstate(all="ignore")  # sound designs overflow nowhere; faulty ones of a batch are flagged, and NaN
 def coefficients(bicycle: Bicycle, rider: Rider | None = None, options: Options | str = "rigid") -> LinearModel:
     """Return the coefficient matrices of the linearised equations of motion.
 

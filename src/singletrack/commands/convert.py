@@ -7,7 +7,7 @@ from typing import Annotated
 
 import typer
 
-from singletrack.commands.model import warn_of_oddities
+from singletrack.body.oddities import warn_of_oddities
 from singletrack.commands.options import Parameterization
 from singletrack.commands.printing import deliver, show
 from singletrack.commands.writing import check_output, losses_of, text_of

@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 from singletrack.analysis.summary import measured_speeds
-from singletrack.commands.model import warn_of_oddities
+from singletrack.body.oddities import warn_of_oddities
 from singletrack.commands.options import CentreFit
 from singletrack.commands.printing import deliver
 from singletrack.commands.writing import check_output, text_of

@@ -4,14 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from math import pi
+from math import inf, pi
 from typing import TYPE_CHECKING, ClassVar
 
-from singletrack.arrays import Array, is_concrete
+from singletrack.arrays import Array
 from singletrack.arrays.faults import Fault
 from singletrack.errors import InputError
 from singletrack.parameters.record import Record, parameter
 from singletrack.parameters.shapes import SegmentShape
+from singletrack.parameters.values import real_numbers
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -24,7 +25,7 @@ _BODY, _MASS = "body", "mass"
 _TORSO = ("shoulder_to_shoulder", "upper_arm_circumference", "chest_circumference")
 
 
-@dataclass(frozen=True, kw_only=True, eq=False)
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class Rider(Record):
     """A rider, SI units, angles in radians; the names are those of Table 3 of Schwab and Kooijman.
 
@@ -47,6 +48,7 @@ class Rider(Record):
     """
 
     kind: ClassVar[str] = "rider"
+    in_short: ClassVar[tuple[str, ...]] = ("rider_mass", "torso_length", "forward_lean_angle")
 
     chest_circumference: Array = parameter("m", "cch", "around the chest", group=_BODY)
     forward_lean_angle: Array = parameter(
@@ -75,7 +77,7 @@ class Rider(Record):
     upper_leg_length: Array = parameter("m", "lul", "hip to knee", group=_BODY)
 
     rider_mass: Array = parameter("kg", "mBr", "whole rider", group=_MASS)
-    head_mass_fraction: Array = parameter("", "mh/mBr", "head", "fraction", group=_MASS)
+    head_mass_fraction: Array = parameter("", "mh/mBr", "head", "fraction", group=_MASS, most=0.5)
     lower_arm_mass_fraction: Array = parameter("", "mla/mBr", "one lower arm", "fraction", group=_MASS)
     lower_leg_mass_fraction: Array = parameter("", "mll/mBr", "one lower leg", "fraction", group=_MASS)
     torso_mass_fraction: Array = parameter("", "mto/mBr", "torso", "fraction", group=_MASS)
@@ -126,22 +128,23 @@ class Rider(Record):
         )
 
     def _physical_faults(self) -> Iterator[Fault]:
-        import numpy as np
-
-        inputs = tuple(getattr(self, name) for name in _TORSO)
-        if not all(is_concrete(value) and np.asarray(value).dtype.kind in "iufc" for value in inputs):
+        inputs = real_numbers(*(getattr(self, name) for name in _TORSO))
+        if inputs is None:
             return
-        width = np.real(self.shoulder_to_shoulder - self.upper_arm_circumference / pi)
-        thickness = np.real(self.chest_circumference - 2 * width) / (pi - 2)
+        if self.torso_width is not None and self.torso_thickness is not None:
+            return
+        shoulders, arm, chest = inputs
+        # Only operators from here, which work on floats and arrays alike; comparisons with NaN are false.
+        width = shoulders - arm / pi
+        usable = (width > -inf) & (width < inf) & (chest > -inf) & (chest < inf)
+        narrow, tight = usable & (width <= 0), usable & (width > 0) & (chest <= 2 * width)
         if self.torso_thickness is not None:
-            if self.torso_width is not None:
-                return
-            thickness = np.ones_like(thickness)
-        finite = np.isfinite(width) & np.isfinite(thickness)
-        found = {"width": width, "twice": 2 * width}
-        found |= dict(zip(_TORSO, (np.asarray(value) for value in inputs), strict=True))
+            tight &= False
+        if narrow is False and tight is False:
+            return
+        found = {"width": width, "twice": 2 * width} | dict(zip(_TORSO, inputs, strict=True))
         yield Fault(
-            finite & (width <= 0),
+            narrow,
             "shoulder_to_shoulder = {shoulder_to_shoulder:.6g} m leaves no torso between upper arms of "
             "upper_arm_circumference = {upper_arm_circumference:.6g} m, must be more than upper_arm_circumference / pi",
             found,
@@ -150,7 +153,7 @@ class Rider(Record):
             "more than upper_arm_circumference / pi",
         )
         yield Fault(
-            finite & (width > 0) & (thickness <= 0),
+            tight,
             "chest_circumference = {chest_circumference:.6g} m does not go around a torso {width:.6g} m wide "
             "(shoulder_to_shoulder - upper_arm_circumference / pi), must be more than {twice:.6g} m",
             found,

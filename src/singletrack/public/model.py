@@ -6,9 +6,12 @@ import dataclasses
 from typing import TYPE_CHECKING, Self
 
 from singletrack import closed_form
+from singletrack.body.oddities import warn_of_oddities
 from singletrack.linear import CriticalSpeeds, Modes, StateSpace, critical_speeds, eigenvalues, modes, state_space
 from singletrack.model import LinearModel
 from singletrack.posture import Options, named_posture
+from singletrack.public.arguments import require_posture, require_records
+from singletrack.public.display import lines_of_model, table_of_model
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -36,6 +39,13 @@ class CoefficientMatrices(LinearModel):
     def of(cls, model: LinearModel) -> Self:
         """Return a model of any maker as one that can be asked."""
         return cls(**{field.name: getattr(model, field.name) for field in dataclasses.fields(LinearModel)})
+
+    def __repr__(self) -> str:
+        return lines_of_model(self)
+
+    def _repr_html_(self) -> str:
+        """Return the matrices as a table, for notebooks."""
+        return table_of_model(self)
 
     def eigenvalues(self, speeds: Array) -> Array:
         """Return the eigenvalues at forward speeds, sorted by real then imaginary part.
@@ -111,6 +121,11 @@ def coefficients(
     PostureError
         If arms or legs do not reach, or the arms cannot follow the steer.
 
+    Warns
+    -----
+    OddityWarning
+        Of what looks odd about a single bicycle, its rider or the rider's reach, once for each.
+
     Examples
     --------
     >>> from singletrack import coefficients, load_bicycle, load_rider
@@ -118,5 +133,8 @@ def coefficients(
     >>> round(float(model.M[1, 1]), 4), round(float(model.gravity * model.K0[1, 1]), 4)
     (0.4614, 2.3268)
     """
+    require_records(bicycle, rider)
+    require_posture(posture)
     options = Options(named_posture(posture), shoulder, arms, torso_lean, springs or {}, dampers or {})
+    warn_of_oddities(bicycle, rider)
     return CoefficientMatrices.of(closed_form.coefficients(bicycle, rider, options))

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from html import escape
 from typing import TYPE_CHECKING
 
-from singletrack import __version__
 from singletrack.present.tables import critical_speeds_text
+from singletrack.version import __version__
 
 if TYPE_CHECKING:
     from singletrack.reproduce.cases import Case

@@ -10,7 +10,7 @@ import numpy as np
 
 from singletrack.arrays import Array
 from singletrack.errors import ModelError, unknown_name
-from singletrack.multibody.engine.assembly import span_of
+from singletrack.multibody.engine.assembly import refuse_undefined, span_of
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -74,21 +74,22 @@ def _reduced(model: Model, parts: Partition) -> ca.Function:
     if dependent:
         kept = jacobian[rows, :]
         own = kept[:, dependent]
-        span = ca.vertcat(ca.MX.eye(len(free)), -_solve(own, kept[:, free]))[order, :]
+        followed = -_solve(own, kept[:, free]) if free else ca.MX(len(dependent), 0)
+        span = ca.vertcat(ca.MX.eye(len(free)), followed)[order, :]
     else:
         span = ca.MX.eye(n)[free, :].T
-    u = span @ ui
+    u = ca.densify(span @ ui) if free else ca.MX.zeros(n, 1)
     h, c = equations.bias(q, u, f, p)
     b = ca.MX(n, 1)
     if dependent:
         b = ca.vertcat(ca.MX(len(free), 1), -_solve(own, c[rows]))[order]
     push = -(h + mass @ b)
     ai = _solve(span.T @ (mass @ span), span.T @ push) if free else ca.MX(0, 1)
-    a = span @ ai + b
+    a = span @ ai + b if free else b
     multipliers = ca.MX(len(system.rows), 1)
     if dependent:
         multipliers[rows] = _solve(own.T, (mass @ a + h)[dependent])
-    return ca.Function("reduced", [q, ui, f, p], [u, a, ca.densify(multipliers)])
+    return ca.Function("reduced", [q, ui, f, p], [u, ca.densify(a), ca.densify(multipliers)])
 
 
 def accelerations(state: State, inputs: Mapping[str, float] | None = None) -> Response:
@@ -164,6 +165,7 @@ def split_wheel_forces(system: System, multipliers: Array) -> Array:
 def _refuse_massless(state: State) -> None:
     """Refuse a state in which some independent speed, or a combination of them, moves no mass."""
     jacobian, mass = state.model.kinetics(state.q, state.parameters)
+    refuse_undefined(state.model, state.q, state.parameters)
     span = span_of(state.partition, jacobian)
     carried = span.T @ mass @ span
     size = np.sqrt(np.diag(carried))

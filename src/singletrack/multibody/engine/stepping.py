@@ -167,7 +167,8 @@ def _solver(run: Run, evaluator: Evaluator, stop: float) -> Any:
 def _try(solver: Any) -> bool:
     """Take a step; tell whether it succeeded."""
     try:
-        solver.step()
+        with np.errstate(all="ignore"):  # what is not finite is seen below
+            solver.step()
     except (ValueError, ArithmeticError, np.linalg.LinAlgError, RuntimeError):
         return False
     return solver.status != "failed" and bool(np.all(np.isfinite(solver.y)))

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from singletrack.errors import ModelError, unknown_name
-from singletrack.multibody.engine.checks import check_number, check_vector, is_number
+from singletrack.multibody.engine.checks import check_axis, check_number, is_number
 from singletrack.multibody.engine.connections import Closure, CoordinateForce, Force, Sensor, Spring, Torque, Wheel
 from singletrack.multibody.engine.elements import GROUND, Body, Joint, Scalar, Vector
 from singletrack.multibody.engine.limits import Limit, Reach
@@ -75,7 +75,7 @@ class System:
         if not is_number(self.gravity):
             raise ModelError("system: gravity must be a number; to vary it, give the parameter `gravity` a value later")
         object.__setattr__(self, "gravity", check_number("system", "gravity", self.gravity))
-        object.__setattr__(self, "down", check_vector("system", "down", self.down))
+        object.__setattr__(self, "down", check_axis("system", "down", self.down))
         if self.independent is not None:
             object.__setattr__(self, "independent", tuple(self.independent))
         _check_names(self)
