@@ -13,7 +13,7 @@ import pytest
 
 from singletrack import load_bicycle, load_rider
 from singletrack.multibody import bicycle, bicycle_model, coefficients, linearise, ride, simulate
-from singletrack.multibody.engine.dynamics import right_side
+from singletrack.multibody.engine.evaluation import right_side
 
 RIDES = {
     "benchmark": ("benchmark", None, "rigid"),

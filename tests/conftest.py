@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pytest
+from hypothesis import settings
 
 from singletrack import coefficients, load_bicycle, load_rider
 
@@ -15,6 +16,10 @@ if TYPE_CHECKING:
     from singletrack import Bicycle, CoefficientMatrices
 
 HERE = Path(__file__).parent
+
+# Tests are never timed: a machine may be busy.
+settings.register_profile("untimed", deadline=None)
+settings.load_profile("untimed")
 
 #: Every shipped combination of bicycle, rider and posture; None: without rider.
 COMBINATIONS = [

@@ -3,17 +3,18 @@
 >>> from singletrack import coefficients, load_bicycle, load_rider
 >>> model = coefficients(load_bicycle("stratos"), load_rider("rider-a"), posture="leaned")
 >>> model.critical_speeds().stable_ranges
-[(5.90..., 9.44...)]
+[(5.99..., 9.58...)]
 """
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from singletrack.errors import InputError, PostureError, SingletrackError
+from singletrack.errors import InputError, OddityWarning, PostureError, SingletrackError
 from singletrack.version import __version__
 
 if TYPE_CHECKING:
+    from singletrack import spacar
     from singletrack.library import load_bicycle, load_rider
     from singletrack.parameters import Bicycle, Rider
     from singletrack.public import CoefficientMatrices, coefficients
@@ -22,6 +23,7 @@ __all__ = [
     "Bicycle",
     "CoefficientMatrices",
     "InputError",
+    "OddityWarning",
     "PostureError",
     "Rider",
     "SingletrackError",
@@ -29,6 +31,7 @@ __all__ = [
     "coefficients",
     "load_bicycle",
     "load_rider",
+    "spacar",
 ]
 
 # Where each public name lives; loaded on first use, so that `import singletrack` stays light.
@@ -40,13 +43,16 @@ _LAZY = {
     "load_bicycle": "singletrack.library",
     "load_rider": "singletrack.library",
 }
+_MODULES = ("spacar",)
 
 
 def __getattr__(name: str) -> Any:
-    if name not in _LAZY:
+    if name not in _LAZY and name not in _MODULES:
         raise AttributeError(f"module 'singletrack' has no attribute {name!r}")
     import importlib
 
+    if name in _MODULES:
+        return importlib.import_module(f"singletrack.{name}")
     return getattr(importlib.import_module(_LAZY[name]), name)
 
 

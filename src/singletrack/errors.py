@@ -152,7 +152,35 @@ class ModelError(SingletrackError):
 
 
 class OddityWarning(UserWarning):
-    """Something allowed that looks odd: a value that is seldom meant, an option without effect."""
+    """Something allowed that looks odd: a value that is seldom meant (a trail of 60 m), an option without effect.
+
+    Attributes
+    ----------
+    name, parameter : str
+        Of the bicycle or rider and of the parameter, "" where there is none.
+    found : float
+        What was found, in SI units.
+    expected : str
+        What is usual, in words.
+
+    Examples
+    --------
+    >>> str(OddityWarning("trail = 60 m is odd", name="mine", parameter="trail", found=60.0))
+    'mine: trail = 60 m is odd'
+    """
+
+    def __init__(
+        self, reason: str = "", *, name: str = "", parameter: str = "", found: Any = None, expected: str = ""
+    ) -> None:
+        super().__init__(reason)
+        self.reason = reason
+        self.name = name
+        self.parameter = parameter
+        self.found = found
+        self.expected = expected
+
+    def __str__(self) -> str:
+        return f"{self.name}: {self.reason}" if self.name else self.reason
 
 
 _MOST_LISTED = 12

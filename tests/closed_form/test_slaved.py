@@ -12,8 +12,7 @@ from singletrack.body import rider_segments, skeleton
 from singletrack.closed_form.slaved import slaved_matrices
 from singletrack.closed_form.whipple import whipple_matrices
 from singletrack.mechanics import combine
-from singletrack.posture import SlavedBodies
-from singletrack.posture.motion import steer_axis
+from singletrack.posture import SlavedBodies, steer_axis
 
 
 def inertia(xx, yy, zz, xz):
@@ -45,7 +44,8 @@ def all_bodies_slaved(b):
     rotation = turns * axis[..., None, :]
     first = turns * cross(axis[..., None, :], centre - foot[..., None, :])
     second = cross(axis[..., None, :], first)
-    return SlavedBodies(mass, centre, np.stack([i for _, _, i in at], axis=-3), rotation, first, second)
+    motion = (part[..., None, :, :] for part in (rotation, first, second))
+    return SlavedBodies(mass, centre, np.stack([i for _, _, i in at], axis=-3), *motion)
 
 
 @pytest.mark.parametrize("name", ["benchmark", "stratos", "browser"])
@@ -110,9 +110,9 @@ def test_order_of_bodies_does_not_matter():
         bodies.mass[order],
         bodies.centre[order],
         bodies.inertia[order],
-        bodies.rotation[order],
-        bodies.displacement[order],
-        bodies.curvature[order],
+        bodies.rotation[:, order],
+        bodies.displacement[:, order],
+        bodies.curvature[:, order],
     )
     for one, other in zip(slaved_matrices(bodies, bicycle), slaved_matrices(shuffled, bicycle), strict=True):
         np.testing.assert_allclose(one, other, rtol=1e-13, atol=1e-14)

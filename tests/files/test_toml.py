@@ -8,11 +8,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from singletrack import InputError, load_bicycle, load_rider
+from singletrack.files.registry import templates
 from singletrack.files.toml_read import parse_record
 from singletrack.files.toml_write import quantity_text, write_toml
 from singletrack.library import shipped
 from singletrack.library.schema import schema
-from singletrack.library.template import KINDS, template
+from singletrack.library.template import template
 from singletrack.parameters import Bicycle, Rider
 from singletrack.parameters.shapes import SegmentShape
 from singletrack.parameters.units import parse_quantity
@@ -93,7 +94,7 @@ def test_an_unfilled_template_says_which_line_to_fill(kind):
         parse_record(CLASS[kind], template(kind), "mine.toml")
 
 
-@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("kind", list(templates()))
 def test_templates_are_plain_and_narrow(kind):
     text = template(kind)
     assert max(map(len, text.splitlines())) < 160

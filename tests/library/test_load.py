@@ -78,7 +78,7 @@ def test_wrong_values(write, old, new, message):
         (b"[parameters", "not valid TOML"),
         (b"a = " + b"[" * 20000, "not valid TOML"),
         (b'kind = "bicycle"\nparameters = 3\n', "has no .parameters."),
-        (b"# " + b"x" * 1_100_000, "is larger than 1000 kB"),
+        (b"# " + b"x" * 1_100_000, "is larger than 200 kB"),
     ],
 )
 def test_files_that_are_none(write, content, message):

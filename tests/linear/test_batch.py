@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from singletrack import InputError, coefficients, load_bicycle, load_rider
+from singletrack.arrays import complex_steps
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -165,8 +166,9 @@ def test_jax_gradients_of_all_parameters_agree_with_complex_steps(jax: Any, post
     for owner, name in every_field():
         which = ("bicycle", "rider").index(owner)
         record = (bicycle, rider)[which]
-        moved = record.replace(**{name: complex(getattr(record, name), step)})
-        stepped = matrices(*((moved, rider) if owner == "bicycle" else (bicycle, moved)), posture)
+        with complex_steps():
+            moved = record.replace(**{name: complex(getattr(record, name), step)})
+            stepped = matrices(*((moved, rider) if owner == "bicycle" else (bicycle, moved)), posture)
         for matrix, gradient in zip(stepped, gradients, strict=True):
             exact = np.imag(matrix) / step
             scale = 1 + np.abs(exact).max()
@@ -194,7 +196,9 @@ def test_jax_gradient_of_eigenvalues_is_that_of_perturbation_theory(jax: Any) ->
         return coefficients(bicycle.replace(trail=trail)).eigenvalues(jax.numpy.asarray([v]))[0]
 
     gradient = np.asarray(jax.jacfwd(roots)(jax.numpy.asarray(bicycle.trail)))
-    model, moved = coefficients(bicycle), coefficients(bicycle.replace(trail=complex(bicycle.trail, 1e-40)))
+    model = coefficients(bicycle)
+    with complex_steps():
+        moved = coefficients(bicycle.replace(trail=complex(bicycle.trail, 1e-40)))
     change = {name: np.imag(getattr(moved, name)) / 1e-40 for name in MATRICES}
     for s, found in zip(model.eigenvalues(v)[0], gradient, strict=True):
         pencil = model.M * s**2 + v * model.C1 * s + 9.81 * model.K0 + v**2 * model.K2
@@ -226,7 +230,8 @@ def test_jax_reverse_mode_gradient(jax: Any) -> None:
     def steer_inertia(trail: Any) -> Any:
         return coefficients(bicycle.replace(trail=trail), rider, "upright").M[1, 1]
 
-    moved = coefficients(bicycle.replace(trail=complex(bicycle.trail, 1e-40)), rider, "upright")
+    with complex_steps():
+        moved = coefficients(bicycle.replace(trail=complex(bicycle.trail, 1e-40)), rider, "upright")
     found = jax.grad(steer_inertia)(jax.numpy.asarray(bicycle.trail))
     np.testing.assert_allclose(found, np.imag(moved.M[1, 1]) / 1e-40, rtol=1e-12)
 

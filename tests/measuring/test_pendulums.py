@@ -13,7 +13,7 @@ from singletrack.files.measured import read_measured
 from singletrack.library.template import template
 from singletrack.measuring.comparison import compare_measured
 from singletrack.measuring.pendulums import CENTRE_FITS
-from singletrack.measuring.raw import RAW
+from singletrack.measuring.quantities import MEASURED_QUANTITIES
 
 MUTATIONS = runpy.run_path(str(Path(__file__).parents[1] / "files" / "mutations.py"), run_name="mutations")
 WHEELS_XX = {"rear_wheel_inertia_xx", "front_wheel_inertia_xx"}
@@ -184,4 +184,4 @@ def test_unknown_fits_are_refused():
 
 def test_the_template_of_measurements_asks_for_all_that_is_needed():
     asked = set(re.findall(r"^(\w+) = #", template("measurements"), re.MULTILINE))
-    assert asked == {name for name, p in RAW.items() if p.needed}
+    assert asked == {name for name, p in MEASURED_QUANTITIES.items() if p.needed}

@@ -131,7 +131,7 @@ def test_rider_a_is_all_there():
 
 
 def test_stadium_has_the_chest_circumference():
-    width, thickness = RIDER.torso_width, RIDER.torso_thickness
+    width, thickness = RIDER.torso_section
     assert 2 * (width - thickness) + np.pi * thickness == pytest.approx(RIDER.chest_circumference)
 
 

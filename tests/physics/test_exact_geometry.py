@@ -55,10 +55,10 @@ def test_motion_of_the_segments_to_second_order(name, posture, shoulder):
     for i, (segment, body) in enumerate(seated.segments.items()):
         at = vec(body.centre)
         plus, minus = ahead[segment](at), behind[segment](at)
-        np.testing.assert_allclose(bodies.displacement[i], floats((plus - minus) / (2 * STEP)), atol=1e-12)
-        np.testing.assert_allclose(bodies.curvature[i], floats((plus - 2 * at + minus) / STEP**2), atol=1e-9)
+        np.testing.assert_allclose(bodies.displacement[0, i], floats((plus - minus) / (2 * STEP)), atol=1e-12)
+        np.testing.assert_allclose(bodies.curvature[0, i], floats((plus - 2 * at + minus) / STEP**2), atol=1e-9)
         turn = (ahead[segment].turn - behind[segment].turn) / (2 * STEP)
-        np.testing.assert_allclose(bodies.rotation[i], floats([turn[2, 1], turn[0, 2], turn[1, 0]]), atol=1e-12)
+        np.testing.assert_allclose(bodies.rotation[0, i], floats([turn[2, 1], turn[0, 2], turn[1, 0]]), atol=1e-12)
 
 
 def floats(values):

@@ -26,10 +26,10 @@ def test_left_and_right_mirror_each_other(name, posture):
         left = index[segment.replace("right", "left")] if "right" in segment else None
         if left is None:
             continue
-        np.testing.assert_allclose(bodies.displacement[left], -mirror * bodies.displacement[right], atol=1e-12)
-        np.testing.assert_allclose(bodies.curvature[left], mirror * bodies.curvature[right], atol=1e-10)
+        np.testing.assert_allclose(bodies.displacement[0, left], -mirror * bodies.displacement[0, right], atol=1e-12)
+        np.testing.assert_allclose(bodies.curvature[0, left], mirror * bodies.curvature[0, right], atol=1e-10)
         # Rotations are axial vectors: the mirror turns their sign around.
-        np.testing.assert_allclose(bodies.rotation[left], mirror * bodies.rotation[right], atol=1e-12)
+        np.testing.assert_allclose(bodies.rotation[0, left], mirror * bodies.rotation[0, right], atol=1e-12)
 
 
 @pytest.mark.parametrize(("name", "posture"), PASSIVE)
@@ -39,8 +39,8 @@ def test_what_lies_in_the_middle_moves_sideways_first(name, posture):
     bodies = slaved_bodies(seated, bicycle)
     for i, segment in enumerate(seated.segments):
         if segment in ("head", "torso"):
-            np.testing.assert_allclose(bodies.displacement[i][[0, 2]], 0.0, atol=1e-14)
-            np.testing.assert_allclose(bodies.curvature[i][1], 0.0, atol=1e-14)
+            np.testing.assert_allclose(bodies.displacement[0, i][[0, 2]], 0.0, atol=1e-14)
+            np.testing.assert_allclose(bodies.curvature[0, i][1], 0.0, atol=1e-14)
 
 
 @pytest.mark.parametrize(("name", "posture"), PASSIVE)

@@ -5,6 +5,7 @@ import pytest
 from matplotlib.figure import Figure
 
 from singletrack import load_bicycle, load_rider
+from singletrack.analysis.outline import outline
 from singletrack.analysis.uncertainty import eigenvalue_uncertainty
 from singletrack.present.bands import add_bands
 from singletrack.present.sketch import side_view
@@ -43,7 +44,7 @@ def test_colours_are_the_callers(result):
 @pytest.mark.parametrize(("name", "rider"), [("benchmark", None), ("stratos", "rider-a"), ("browser", "rider-a")])
 def test_side_views_are_to_scale(name, rider):
     bicycle = load_bicycle(name)
-    lines = side_view(bicycle, None if rider is None else load_rider(rider), width=80).splitlines()
+    lines = side_view(outline(bicycle, None if rider is None else load_rider(rider)), width=80).splitlines()
     rear, front = (next(line.index(letter) for line in lines if letter in line) for letter in "RF")
     span = float(bicycle.wheel_base + bicycle.rear_wheel_radius + bicycle.front_wheel_radius) + 0.04
     assert (front - rear) * span / 80 == pytest.approx(float(bicycle.wheel_base), abs=0.05)

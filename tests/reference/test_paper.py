@@ -40,7 +40,8 @@ def test_printed_critical_speeds():
         ("stratos", "rigid", {}, "0.2507", "-6.8166"),
         ("browser", "rigid", {}, "0.2478", "-6.5916"),
         ("browser", "upright", {}, "0.4614", "2.3268"),
-        ("stratos", "leaned", {}, "0.6332", "-9.4401"),
+        ("stratos", "leaned", {"arms": "bent"}, "0.6332", "-9.4401"),
+        ("stratos", "leaned", {}, "0.6502", "-9.6850"),
         ("stratos", "leaned", {"shoulder": "axial"}, "0.7371", "-3.7067"),
     ],
 )
@@ -52,10 +53,15 @@ def test_values_agreed_before(bicycle, posture, options, m22, k22):
 
 
 def test_speeds_agreed_before():
-    rigid, leaned = (model("stratos", posture).critical_speeds() for posture in ("rigid", "leaned"))
+    rigid, leaned = (
+        model("stratos", "rigid").critical_speeds(),
+        model("stratos", "leaned", arms="bent").critical_speeds(),
+    )
     assert [f"{rigid.weave[0]:.3f}", f"{rigid.capsize[0]:.3f}"] == ["4.658", "7.867"]
     ((low, high),) = leaned.stable_ranges
     assert [f"{low:.3f}", f"{high:.3f}"] == ["5.901", "9.444"]
+    ((low, high),) = model("stratos", "leaned").critical_speeds().stable_ranges
+    assert [f"{low:.3f}", f"{high:.3f}"] == ["5.993", "9.588"]
 
 
 def test_upright_rider_is_never_stable():

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from singletrack.arrays import complex_steps
 from singletrack.closed_form import coefficients
 from singletrack.errors import InputError
 from singletrack.linear import eigenvalues
@@ -155,7 +156,8 @@ def derivatives(
         if name not in known:
             raise InputError(f"{name} is no parameter of this bicycle or rider (known: {', '.join(known)})")
     model = coefficients(bicycle, rider, options)
-    moved = coefficients(*shifted(bicycle, rider, names, 1j * _STEP * np.eye(len(names))), options)
+    with complex_steps():
+        moved = coefficients(*shifted(bicycle, rider, names, 1j * _STEP * np.eye(len(names))), options)
     shape = (len(names), 2, 2)
     matrices = {n: np.broadcast_to(np.imag(getattr(moved, n)) / _STEP, shape) for n in _MATRICES}
     gravity = np.array([float(name == "gravity") for name in names])

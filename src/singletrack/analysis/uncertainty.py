@@ -147,7 +147,7 @@ def linear_uncertainty(
     options : Options or str
         How the rider sits, or a posture's name.
     covariance : (names, array of shape (k, k)), optional
-        Covariance of parameters that correlate (:class:`singletrack.measuring.pendulums.Measurement` has it); the
+        Covariance of parameters that correlate (:class:`singletrack.measuring.measurement.Measurement` has it); the
         standard deviations of other parameters stay in force. Without it, parameters are independent.
 
     Raises

@@ -2,12 +2,15 @@
 
 from singletrack.arrays.faults import Fault, refuse_single, valid_mask
 from singletrack.arrays.namespace import Array, as_arrays, is_concrete, is_jax, namespace, require_double
+from singletrack.arrays.steps import complex_allowed, complex_steps
 from singletrack.arrays.vectors import cross, dot, matvec, skew, stack, unit_vector, vector
 
 __all__ = [
     "Array",
     "Fault",
     "as_arrays",
+    "complex_allowed",
+    "complex_steps",
     "cross",
     "dot",
     "is_concrete",

@@ -25,16 +25,16 @@ Array: TypeAlias = Any
 
 @functools.cache
 def _numpy() -> Any:
-    import array_api_compat.numpy as xp  # lazy: `import singletrack` stays light
+    import numpy as np  # lazy: `import singletrack` stays light
 
-    return xp
+    return np  # from 2.1 on its own namespace is that of the standard, as far as the kernels use it
 
 
 def namespace(*values: Array) -> Any:
     """Return the array namespace of the values: JAX if any is a JAX array, else NumPy.
 
     >>> namespace(1.0, 2.0).__name__
-    'array_api_compat.numpy'
+    'numpy'
     """
     return sys.modules["jax.numpy"] if is_jax(*values) else _numpy()
 

@@ -56,6 +56,8 @@ def seat_oddities(bicycle: Bicycle, rider: Rider) -> tuple[Oddity, ...]:
         Oddity(
             "forward_lean_angle" if limb == "arm" else "seat_post_length",
             f"the {targets[limb]} is barely within reach: the {limb} is stretched to {float(share):.1%} of its length",
+            float(share),
+            f"a limb stretched to at most {_STRETCHED:.1%} of its length",
         )
         for limb, share in reach(skeleton(bicycle, rider), rider).items()
         if share > _STRETCHED

@@ -5,12 +5,14 @@ from __future__ import annotations
 import dataclasses
 from typing import TYPE_CHECKING
 
-from singletrack.arrays import is_concrete, refuse_single, require_double
+import numpy as np
+
+from singletrack.arrays import Array, as_arrays, is_concrete, refuse_single, require_double
 from singletrack.closed_form.slaved import slaved_matrices
 from singletrack.closed_form.whipple import whipple_matrices
-from singletrack.model import LinearModel
+from singletrack.model import COORDINATES, INPUTS, LinearModel
 from singletrack.model.definite import indefinite
-from singletrack.posture import Options, seat, slaved_bodies
+from singletrack.posture import STEER, Options, input_name, seat, slaved_bodies
 
 if TYPE_CHECKING:
     from singletrack.parameters import Bicycle, Rider
@@ -18,10 +20,12 @@ if TYPE_CHECKING:
 __all__ = ["coefficients"]
 
 
+@np.errstate(all="ignore")  # sound designs overflow nowhere; faulty ones of a batch are flagged, and NaN
 def coefficients(bicycle: Bicycle, rider: Rider | None = None, options: Options | str = "rigid") -> LinearModel:
     """Return the coefficient matrices of the linearised equations of motion.
 
-    ``M q'' + v C1 q' + (g K0 + v^2 K2) q = f`` with q = (lean, steer) in rad, f = (lean torque, steer torque) in N m.
+    ``M q'' + (C0 + v C1) q' + (S0 + g K0 + v^2 K2) q = f`` with q = (lean, steer, free joints) in rad, f the torques
+    (lean torque, steer torque, those of the joints) in N m.
 
     Parameters
     ----------
@@ -34,7 +38,7 @@ def coefficients(bicycle: Bicycle, rider: Rider | None = None, options: Options 
     Returns
     -------
     LinearModel
-        Each matrix of shape (..., 2, 2), where (...) is what the parameters broadcast to.
+        Each matrix of shape (..., n, n), where (...) is what the parameters broadcast to.
 
     Raises
     ------
@@ -47,7 +51,8 @@ def coefficients(bicycle: Bicycle, rider: Rider | None = None, options: Options 
 
     Notes
     -----
-    The bicycle by Meijaard et al. (2007), appendix A; the rider's segments as bodies slaved to the steer angle.
+    The bicycle by Meijaard et al. (2007), appendix A; the rider's segments as bodies slaved to the steer angle
+    and the free joints.
 
     Examples
     --------
@@ -61,12 +66,70 @@ def coefficients(bicycle: Bicycle, rider: Rider | None = None, options: Options 
     require_double(bare.M)
     if rider is None:
         options.require_rider()
-        return _checked(LinearModel(*bare, bicycle.gravity, faults=bicycle.standing_faults), bicycle.name)
+        laws = _steer_laws(options, 1)
+        model = LinearModel(*bare, bicycle.gravity, faults=bicycle.standing_faults, C0=laws[0], S0=laws[1])
+        return _checked(model, bicycle.name)
     bodies = slaved_bodies(seat(bicycle, rider, options), bicycle)
     added = slaved_matrices(bodies, bicycle)
     faults = bicycle.standing_faults + rider.standing_faults + bodies.faults
-    M, C1, K0, K2 = (one + other for one, other in zip(bare, added, strict=True))
-    return _checked(LinearModel(M, C1, K0, K2, bicycle.gravity, faults=faults), bicycle.name)
+    more = len(bodies.freedoms)
+    M, C1, K0, K2 = (_padded(one, more) + other for one, other in zip(bare, added, strict=True))
+    of_joints = (bodies.damping, bodies.stiffness)
+    C0, S0 = (
+        _both(None if own is None else _bordered(own), steer)
+        for own, steer in zip(of_joints, _steer_laws(options, 1 + more), strict=True)
+    )
+    model = LinearModel(
+        M,
+        C1,
+        K0,
+        K2,
+        bicycle.gravity,
+        faults=faults,
+        C0=C0,
+        S0=S0,
+        coordinates=(*COORDINATES, *bodies.freedoms),
+        inputs=(*INPUTS, *map(input_name, bodies.freedoms)),
+    )
+    return _checked(model, bicycle.name)
+
+
+def _padded(matrix: Array, more: int) -> Array:
+    """Return matrices (..., n, n) with so many rows and columns of zeros more."""
+    if not more:
+        return matrix
+    xp, (matrix,) = as_arrays(matrix)
+    batch, n = matrix.shape[:-2], matrix.shape[-1]
+    wide = xp.concat([matrix, xp.zeros((*batch, n, more), dtype=matrix.dtype)], axis=-1)
+    return xp.concat([wide, xp.zeros((*batch, more, n + more), dtype=matrix.dtype)], axis=-2)
+
+
+def _bordered(matrix: Array) -> Array:
+    """Return matrices (..., f, f) of steer and free joints with a row and column of zeros before them, for the lean."""
+    xp, (matrix,) = as_arrays(matrix)
+    batch, f = matrix.shape[:-2], matrix.shape[-1]
+    wide = xp.concat([xp.zeros((*batch, f, 1), dtype=matrix.dtype), matrix], axis=-1)
+    return xp.concat([xp.zeros((*batch, 1, f + 1), dtype=matrix.dtype), wide], axis=-2)
+
+
+def _steer_laws(options: Options, freedoms: int) -> tuple[Array | None, Array | None]:
+    """Return C0 and S0 of damper and spring on the steer, None without."""
+    found: list[Array | None] = []
+    for values in (options.dampers, options.springs):
+        value = values.get(STEER)
+        if value is None:
+            found.append(None)
+            continue
+        place = np.zeros((1 + freedoms, 1 + freedoms))
+        place[1, 1] = 1.0
+        found.append(as_arrays(value)[1][0][..., None, None] * place)
+    return found[0], found[1]
+
+
+def _both(one: Array | None, other: Array | None) -> Array | None:
+    if one is None or other is None:
+        return other if one is None else one
+    return one + other
 
 
 def _checked(model: LinearModel, name: str) -> LinearModel:

@@ -1,11 +1,11 @@
-"""What bodies slaved to the steer angle add to the coefficient matrices (derived in docs/theory.md)."""
+"""What bodies slaved to the steer angle and to free joints add to the matrices (derived in docs/theory.md)."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from singletrack.arrays import Array, as_arrays, dot, matvec, namespace
-from singletrack.closed_form.whipple import Matrices, matrix2
+from singletrack.arrays import Array, as_arrays, matvec, namespace, stack
+from singletrack.closed_form.whipple import Matrices
 
 if TYPE_CHECKING:
     from singletrack.parameters import Bicycle
@@ -15,27 +15,28 @@ __all__ = ["slaved_matrices"]
 
 
 def slaved_matrices(bodies: SlavedBodies, bicycle: Bicycle) -> Matrices:
-    """Return the sum of what bodies slaved to the steer add to M, C1, K0 and K2.
+    """Return the sum of what bodies add to M, C1, K0 and K2 that move with the steer and free joints.
 
     Parameters
     ----------
     bodies : SlavedBodies
-        n bodies with their motion relative to the rear frame, displacement J δ + H δ²/2 and rotation w δ.
+        Bodies with their motion relative to the rear frame along f freedoms, the steer first.
     bicycle : Bicycle
         Wheel base, trail and steer axis tilt.
 
     Returns
     -------
     Matrices
-        Each of shape (..., 2, 2), SI units.
+        Each of shape (..., 1 + f, 1 + f), SI units; coordinates lean, steer, free joints.
 
     Notes
     -----
     With μ = c cos λ / w_b and κ = cos λ / w_b, each body has a translation p and a rotation a for unit rates of lean,
-    steer and yaw about the rear contact, paired as ⟨(p, a), (q, b)⟩ = m p·q + a·I b; y(p) is the lateral part of p:
+    steer, free joints and yaw about the rear contact, paired as ⟨(p, a), (q, b)⟩ = m p·q + a·I b; y(p) is the lateral
+    part of p:
 
         M_ij += ⟨i, j⟩            C1_iδ += κ ⟨i, ψ⟩ + μ m y(p_i)         K2_iδ += κ m y(p_i)
-        K0_φφ += m z              K0_φδ -= m (μ x + J_y)                 K0_δδ -= m (μ x sin λ + H_z)
+        K0_φφ += m z              K0_φi -= m y(p_i)                      K0_ij -= m H_ij,z;  K0_δδ -= m μ x sin λ
 
     Examples
     --------
@@ -44,38 +45,91 @@ def slaved_matrices(bodies: SlavedBodies, bicycle: Bicycle) -> Matrices:
     >>> import numpy as np
     >>> from singletrack import load_bicycle
     >>> from singletrack.posture import SlavedBodies
-    >>> at, still = np.array([[0.3, 0.0, -1.0]]), np.zeros((1, 3))
+    >>> at, still = np.array([[0.3, 0.0, -1.0]]), np.zeros((1, 1, 3))
     >>> load = SlavedBodies(np.array([10.0]), at, np.zeros((1, 3, 3)), still, still, still)
     >>> float(slaved_matrices(load, load_bicycle("stratos")).M[0, 0])
     10.0
     """
     xp, (base, trail, tilt) = as_arrays(bicycle.wheel_base, bicycle.trail, bicycle.steer_axis_tilt)
-    kappa, sin = xp.cos(tilt)[..., None] / base[..., None], xp.sin(tilt)[..., None]
-    mu = trail[..., None] * kappa
-    mass, J = bodies.mass, bodies.displacement
+    kappa = xp.cos(tilt) / base
+    mu = trail * kappa
+    mass = bodies.mass
     x, y, z = (bodies.centre[..., k] for k in range(3))
-    # Unit rates: lean moves a body by (0, -z, y) and turns it about x, yaw by (-y, x, 0) about z, steer by μ times
-    # that and J, w besides. Angular momenta, and the lateral parts of momenta:
-    spin_steer = matvec(bodies.inertia, bodies.rotation) + mu[..., None] * bodies.inertia[..., :, 2]
-    lean_y, yaw_x, yaw_y = -mass * z, -mass * y, mass * x
-    steer_x, steer_y, steer_z = mu * yaw_x + mass * J[..., 0], mu * yaw_y + mass * J[..., 1], mass * J[..., 2]
-    spin_steer_w = dot(bodies.rotation, spin_steer) + mu * spin_steer[..., 2]
-
+    moment_x, moment_z = _sum(mass * x), _sum(mass * z)
     lean_lean = _sum(mass * (y * y + z * z) + bodies.inertia[..., 0, 0])
-    lean_steer = _sum(y * steer_z - z * steer_y + spin_steer[..., 0])
-    lean_yaw = _sum(lean_y * x + bodies.inertia[..., 0, 2])
-    steer_yaw = _sum(x * steer_y - y * steer_x + spin_steer[..., 2])
-    moved = steer_x * (J[..., 0] - mu * y) + steer_y * (J[..., 1] + mu * x) + steer_z * J[..., 2]
-    k0_off = -_sum(steer_y)
-    kappa, mu, sin = kappa[..., 0], mu[..., 0], sin[..., 0]
-    lean_lateral, steer_lateral = _sum(lean_y), -k0_off
+    lean_yaw = _sum(bodies.inertia[..., 0, 2] - mass * x * z)
+    yaw_yaw = _sum(mass * (x * x + y * y) + bodies.inertia[..., 2, 2])
+    count = bodies.displacement.shape[-3]
+    lean, yaw, lateral, inner, sinking = _relative(bodies, count)
+
+    # The steer takes the frame along by μ of yaw.
+    lean[0], lateral[0] = lean[0] + mu * lean_yaw, lateral[0] + mu * moment_x
+    inner[0, 0] = inner[0, 0] + 2 * mu * yaw[0] + mu * mu * yaw_yaw
+    for i in range(1, count):
+        inner[0, i] = inner[0, i] + mu * yaw[i]
+    yaw[0] = yaw[0] + mu * yaw_yaw
+    sinking[0, 0] = sinking[0, 0] + mu * xp.sin(tilt) * moment_x
+    by_yaw, by_lateral = [lean_yaw, *yaw], [-moment_z, *lateral]
+
+    def symmetric(corner: Array, edge: list[Array], rest: dict[tuple[int, int], Array]) -> Array:
+        inside = [[rest[min(i, j), max(i, j)] for j in range(count)] for i in range(count)]
+        return _matrix([[corner, *edge], *([edge[i], *row] for i, row in enumerate(inside))])
+
+    def steer_column(values: list[Array]) -> Array:
+        return _matrix([[0.0, value, *([0.0] * (count - 1))] for value in values])
+
     return Matrices(
-        matrix2(lean_lean, lean_steer, lean_steer, _sum(moved + spin_steer_w)),
-        matrix2(0.0, kappa * lean_yaw + mu * lean_lateral, 0.0, kappa * steer_yaw + mu * steer_lateral),
-        matrix2(-lean_lateral, k0_off, k0_off, -mu * sin * _sum(yaw_y) - _sum(mass * bodies.curvature[..., 2])),
-        matrix2(0.0, kappa * lean_lateral, 0.0, kappa * steer_lateral),
+        symmetric(lean_lean, lean, inner),
+        steer_column([kappa * a + mu * b for a, b in zip(by_yaw, by_lateral, strict=True)]),
+        symmetric(moment_z, [-value for value in lateral], {pair: -value for pair, value in sinking.items()}),
+        steer_column([kappa * b for b in by_lateral]),
+    )
+
+
+def _relative(
+    bodies: SlavedBodies, count: int
+) -> tuple[list[Array], list[Array], list[Array], dict[tuple[int, int], Array], dict[tuple[int, int], Array]]:
+    """Return what the motion relative to the frame has of its own.
+
+    By freedom: angular momenta about x and z, lateral momentum; by pair of freedoms: inertia, mass times sinking.
+    """
+    pairs = [(i, j) for i in range(count) for j in range(i, count)]
+    if bodies.moving == ():
+        nothing = [0.0] * count
+        return nothing, nothing.copy(), nothing.copy(), dict.fromkeys(pairs, 0.0), dict.fromkeys(pairs, 0.0)
+    chosen = slice(None) if bodies.moving is None else list(bodies.moving)
+    mass, centre = bodies.mass[..., chosen], bodies.centre[..., chosen, :]
+    turn, move = bodies.rotation[..., chosen, :], bodies.displacement[..., chosen, :]
+    momentum = mass[..., None, :, None] * move
+    spin = matvec(bodies.inertia[..., None, chosen, :, :], turn)
+    x, y, z = (centre[..., None, :, k] for k in range(3))
+    px, py, pz = (momentum[..., k] for k in range(3))
+    lean = _sum(y * pz - z * py + spin[..., 0])
+    yaw = _sum(x * py - y * px + spin[..., 2])
+    lateral = _sum(py)
+    sinking = _sum(mass[..., None, :] * bodies.curvature[..., chosen, 2])
+    inner = {}
+    for i, j in pairs:
+        both = move[..., i, :, :] * momentum[..., j, :, :] + turn[..., i, :, :] * spin[..., j, :, :]
+        inner[i, j] = _sum(both[..., 0] + both[..., 1] + both[..., 2])
+
+    def listed(values: Array) -> list[Array]:
+        return [values[..., i] for i in range(count)]
+
+    return (
+        listed(lean),
+        listed(yaw),
+        listed(lateral),
+        inner,
+        {pair: sinking[..., k] for k, pair in enumerate(pairs)},
     )
 
 
 def _sum(values: Array) -> Array:
     return namespace(values).sum(values, axis=-1)
+
+
+def _matrix(rows: list[list[Array]]) -> Array:
+    """Return matrices (..., n, n) of their entries (...)."""
+    flat = stack([entry for row in rows for entry in row], -1)
+    return flat.reshape(*flat.shape[:-1], len(rows), len(rows))

@@ -7,15 +7,18 @@ from typing import Annotated
 
 import typer
 
-from singletrack.commands.model import warn_of_oddities
+from singletrack.analysis.summary import measured_speeds
+from singletrack.body.oddities import warn_of_oddities
 from singletrack.commands.options import CentreFit
 from singletrack.commands.printing import deliver
 from singletrack.commands.writing import check_output, text_of
-from singletrack.errors import InputError
+from singletrack.errors import InputError, SingletrackError
 from singletrack.files.measured import read_measured
 from singletrack.files.source import read_text
 from singletrack.library import load_bicycle, shipped
-from singletrack.present.printing import print_measured, print_measured_speeds
+from singletrack.measuring.comparison import compare_measured
+from singletrack.present.printing import print_measured
+from singletrack.present.tables import critical_speeds_text
 from singletrack.present.terminal import Terminal
 
 __all__ = ["run"]
@@ -41,7 +44,16 @@ def run(
     other = None if name in {None, "none"} else load_bicycle(str(name))
     warn_of_oddities(found.bicycle)
     console = Terminal()
-    print_measured(console, found, other)
-    print_measured_speeds(console, found)
+    if other is None:
+        print_measured(console, found.bicycle)
+    else:
+        agreements = {agreement.name: agreement for agreement in compare_measured(found.bicycle, other)}
+        print_measured(console, found.bicycle, other.name, agreements)
+    try:
+        speeds = measured_speeds(found)
+    except SingletrackError as error:
+        console.print(f"no uncertainty of the critical speeds: {error}")
+    else:
+        console.print(critical_speeds_text(speeds.critical, speeds.speed_deviations))
     if output is not None:
         deliver(text_of(found.bicycle, output), output)

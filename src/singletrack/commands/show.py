@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
-from singletrack.commands.model import ModelOptions, model_from, warn_of_oddities
+from singletrack.analysis.outline import outline
+from singletrack.analysis.summary import derived, results
+from singletrack.body.oddities import warn_of_oddities
+from singletrack.commands.model import ModelOptions, model_from
 from singletrack.commands.options import ThingArgument
 from singletrack.errors import InputError
 from singletrack.library.load import load_any
@@ -22,12 +25,12 @@ def run(name: ThingArgument, options: ModelOptions) -> None:
         if options.rider is not None:
             raise InputError(f"{name}: is a rider, must be a bicycle to seat {options.rider} on")
         warn_of_oddities(record)
-        print_record(console, record)
+        print_record(console, record, derived(record))
         return
     made = model_from(name, options)
-    console.print(side_view(made.bicycle, made.rider))
+    console.print(side_view(outline(made.bicycle, made.rider)))
     console.print(Words("centres of mass: R rear wheel, B rear frame, H front frame, F front wheel\n", "dim"))
-    print_record(console, made.bicycle)
-    if made.rider is not None:
-        print_record(console, made.rider)
-    print_results(console, made.bicycle, made.rider, options.sitting)
+    for each in (made.bicycle, made.rider):
+        if each is not None:
+            print_record(console, each, derived(each))
+    print_results(console, results(made.model, made.bicycle, made.rider, options.sitting), made.title)

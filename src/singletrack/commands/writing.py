@@ -5,9 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from singletrack.errors import InputError
-from singletrack.files.parameter_sets import write_parameter_set
-from singletrack.files.text import write_bicycle_text
-from singletrack.files.toml_write import write_toml
+from singletrack.files.registry import FORMATS, write_format
 from singletrack.output import check_writable
 from singletrack.parameters import Bicycle
 
@@ -16,9 +14,7 @@ if TYPE_CHECKING:
 
     from singletrack.parameters import Rider
 
-__all__ = ["check_output", "is_parameter_set", "text_of"]
-
-_SUFFIXES = (".toml", ".txt", ".yml", ".yaml")
+__all__ = ["check_output", "losses_of", "text_of"]
 
 
 def check_output(output: Path) -> None:
@@ -33,14 +29,8 @@ def check_output(output: Path) -> None:
     InputError
         If its suffix names no format, or it cannot be written.
     """
-    if output.suffix.lower() not in _SUFFIXES:
-        raise InputError(f"{output}: unknown suffix {output.suffix!r}, must be one of {', '.join(_SUFFIXES)}")
+    write_format(output)
     check_writable(output)
-
-
-def is_parameter_set(output: Path) -> bool:
-    """Tell whether a file is a parameter set, by its suffix."""
-    return output.suffix.lower() in {".yml", ".yaml"}
 
 
 def text_of(record: Bicycle | Rider, output: Path, parameterization: str = "benchmark") -> str:
@@ -56,10 +46,16 @@ def text_of(record: Bicycle | Rider, output: Path, parameterization: str = "benc
     Raises
     ------
     InputError
-        If the format holds no rider.
+        If the format cannot hold the record.
     """
-    if output.suffix.lower() == ".toml":
-        return write_toml(record)
-    if not isinstance(record, Bicycle):
-        raise InputError(f"{output}: the format holds no rider, must be .toml")
-    return write_parameter_set(record, parameterization) if is_parameter_set(output) else write_bicycle_text(record)
+    text = write_format(output, parameterization).write(record)
+    if text is None:
+        kind = "bicycle" if isinstance(record, Bicycle) else "rider"
+        able = {suffix: None for each in FORMATS if each.can_write(kind) for suffix in each.suffixes}
+        raise InputError(f"{output}: the format holds no {kind}, must be {', '.join(able)}")
+    return text
+
+
+def losses_of(record: Bicycle | Rider, output: Path, parameterization: str = "benchmark") -> tuple[str, ...]:
+    """Return what the format of the output's suffix does not hold, in sentences (arguments as for :func:`text_of`)."""
+    return write_format(output, parameterization).losses(record)

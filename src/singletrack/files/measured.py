@@ -2,21 +2,22 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from singletrack.errors import InputError
-from singletrack.files.text import read_entries
-from singletrack.measuring.pendulums import measure
-from singletrack.measuring.raw import RAW, orientations
+from singletrack.files.format import Format
+from singletrack.files.measured_template import measured_template
+from singletrack.files.text_lines import read_values
+from singletrack.measuring.measurement import measure
 from singletrack.parameters.symbols import NAMES
 
 if TYPE_CHECKING:
-    from singletrack.files.entries import Entries
-    from singletrack.measuring.pendulums import Measurement
+    from singletrack.files.format import Clues
+    from singletrack.measuring.measurement import Measurement
     from singletrack.parameters.bicycle import Bicycle
 
-__all__ = ["read_measured", "read_measured_bicycle"]
+__all__ = ["FORMAT", "read_measured", "read_measured_bicycle"]
 
 
 def read_measured(text: str, where: str, centre_fit: str = "perpendicular") -> Measurement:
@@ -25,7 +26,8 @@ def read_measured(text: str, where: str, centre_fit: str = "perpendicular") -> M
     Parameters
     ----------
     text : str
-        Lines ``name = value+/-deviation`` with the names of :data:`singletrack.measuring.raw.RAW`.
+        Lines ``name = value+/-deviation`` with the names of
+        :data:`singletrack.measuring.quantities.MEASURED_QUANTITIES`.
     where : str
         The file's name, for messages.
     centre_fit : {"perpendicular", "vertical", "intersections"}
@@ -36,17 +38,30 @@ def read_measured(text: str, where: str, centre_fit: str = "perpendicular") -> M
     InputError
         Names file, line, measurement, what was found and what is allowed.
     """
-    entries = read_entries(text, where)
-    _check(entries)
+    given = read_values(text, where)
     source = f"raw measurements {Path(where).name}"
-    return entries.build(
-        lambda: measure(entries.values(), entries.deviations(), centre_fit, name=entries.name, source=source), _LOCATES
+    places = {**_LOCATES, **{name: name for name in given.lines}}
+    return given.build(
+        lambda: measure(given.values(), given.deviations(), centre_fit, name=given.name, source=source), places
     )
 
 
 def read_measured_bicycle(text: str, where: str) -> Bicycle:
     """Return the bicycle alone (arguments as for :func:`read_measured`)."""
     return read_measured(text, where).bicycle
+
+
+def _recognises(clues: Clues) -> bool:
+    return any(re.fullmatch(r"T[ct][A-Z][0-9]|alpha[BHGS][0-9]", name) for name in clues.values)
+
+
+FORMAT = Format(
+    name="measured",
+    description="raw measurements of BicycleParameters",
+    recognises=_recognises,
+    read_bicycle=read_measured_bicycle,
+    templates={"measurements": measured_template},
+)
 
 
 #: The measurement to look at first when a parameter is impossible.
@@ -61,25 +76,3 @@ _LOCATES = {
     "stem_length": "LhbR",
     "handlebar_length": "LhbF",
 }
-
-
-def _check(entries: Entries) -> None:
-    """Raise InputError for measurements that are unknown, missing or not allowed; names file, line, name."""
-    entries.require_known(RAW, "measurement")
-    entries.require([name for name, p in RAW.items() if p.needed], "the measurements")
-    for name, quantity in entries.quantities.items():
-        p = RAW[name]
-        if not p.low < quantity.value < p.high or abs(quantity.value) > 1e6 or (p.low == 0 and quantity.value < 1e-6):
-            high = min(p.high, 1e6)
-            raise InputError(
-                f"{entries.place(name)}: {name} = {quantity.value:g} {p.unit}".rstrip()
-                + f", must be between {max(p.low, -1e6):g} and {high:g} ({p.meaning})"
-            )
-        if quantity.deviation is not None and quantity.deviation > abs(quantity.value) + 1:
-            raise InputError(
-                f"{entries.place(name)}: {name} has a standard deviation of {quantity.deviation:g} {p.unit}, must be "
-                f"less than the value's size ({p.meaning})"
-            )
-    for letter in "BH":
-        numbers = orientations(entries.quantities, letter)
-        entries.require([f"{kind}{letter}{i}" for i in numbers for kind in ("a", "Tt")], "the measurements")

@@ -7,16 +7,19 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from singletrack.errors import InputError, unknown_name
-from singletrack.files.entries import bicycle_from_entries
+from singletrack.files.format import Format
+from singletrack.files.meijaard import bicycle_from_values, values_by_symbol
 from singletrack.files.principal import bicycle_from_principal, principal_values
 from singletrack.files.yaml_text import Item, numbers, read_mapping
-from singletrack.parameters.symbols import MODEL_SYMBOLS, SYMBOLS
+from singletrack.parameters.bicycle import FRAME_GEOMETRY, Bicycle
+from singletrack.parameters.symbols import MODEL_SYMBOLS
 
 if TYPE_CHECKING:
-    from singletrack.files.entries import Entries
-    from singletrack.parameters.bicycle import Bicycle
+    from singletrack.files.format import Clues
+    from singletrack.files.named_values import NamedValues
+    from singletrack.parameters.rider import Rider
 
-__all__ = ["PARAMETERIZATIONS", "read_parameter_set", "write_parameter_set"]
+__all__ = ["BENCHMARK", "PARAMETERIZATIONS", "PRINCIPAL", "read_parameter_set", "write_parameter_set"]
 
 PARAMETERIZATIONS = ("benchmark", "principal")
 _ALSO_CALLED = {"Meijaard2007": "benchmark", "Moore2019": "principal"}
@@ -26,19 +29,26 @@ _HEADER = ("parameterization", "parameters", "rider", "description", "values")
 def read_parameter_set(text: str, where: str) -> Bicycle:
     """Return the bicycle of a YAML parameter set; the rider of a principal set is lumped into the rear frame.
 
+    Parameters
+    ----------
+    text : str
+    where : str
+        The file's name, for messages.
+
     Raises
     ------
     InputError
         Names file, line, symbol, what was found and what is allowed.
     """
-    parameterization, entries, with_rider = _entries(read_mapping(text, where), where)
+    parameterization, given, with_rider = _contents(read_mapping(text, where), where)
     source = f"parameter set {Path(where).name}"
-    make = bicycle_from_principal if parameterization == "principal" else bicycle_from_entries
-    bicycle = make(entries, source)
+    make = bicycle_from_principal if parameterization == "principal" else bicycle_from_values
+    bicycle = make(given, source)
     return bicycle.replace(extras={**bicycle.extras, "rider": 1.0}) if with_rider else bicycle
 
 
-def _entries(items: dict[str, Item], where: str) -> tuple[str, Entries, bool]:
+def _contents(items: dict[str, Item], where: str) -> tuple[str, NamedValues, bool]:
+    """Return parameterization, values, and whether they include a rider."""
     stem = Path(where).stem
     guessed = next((p for p in PARAMETERIZATIONS if stem.startswith(p)), "benchmark")
     name = stem.removeprefix(f"{guessed}-")
@@ -95,9 +105,9 @@ def write_parameter_set(bicycle: Bicycle, parameterization: str = "benchmark", s
     if parameterization == "principal":
         values = principal_values(bicycle)
     else:
-        present = bicycle.values()
-        values = {SYMBOLS[name]: float(value) for name, value in present.items() if SYMBOLS[name] in MODEL_SYMBOLS}
-        deviations = {SYMBOLS[name]: sd for name, sd in bicycle.standard_deviations.items()}
+        numbers_given = {s: number for s, number in values_by_symbol(bicycle).items() if s in MODEL_SYMBOLS}
+        values = {symbol: value for symbol, (value, _) in numbers_given.items()}
+        deviations = {symbol: sd for symbol, (_, sd) in numbers_given.items() if sd is not None}
     values = {**values, "v": bicycle.extras.get("v", speed)}
     lines = [
         f"parameterization: {parameterization}",
@@ -117,3 +127,41 @@ def _yaml_float(value: float) -> str:
     text = repr(float(value))
     mantissa, exponent, power = text.partition("e")
     return text if not exponent or "." in mantissa else f"{mantissa}.0e{power}"
+
+
+def _losses(record: Bicycle | Rider) -> tuple[str, ...]:
+    """Return what a parameter set does not hold of a record."""
+    found = []
+    if record.standard_deviations:
+        found.append("a parameter set holds no standard deviations; they stand in its comments")
+    geometry = [name for name in record.values() if name in FRAME_GEOMETRY]
+    if geometry:
+        found.append(f"a parameter set holds no {', '.join(geometry)}")
+    return tuple(found)
+
+
+def _is_principal(clues: Clues) -> bool:
+    named = clues.values.get("parameterization", "").strip("\"' ")
+    return _ALSO_CALLED.get(named, named) == "principal" or (not named and "kDaa" in clues.values)
+
+
+PRINCIPAL = Format(
+    name="principal",
+    description="a principal YAML parameter set of BicycleParameters",
+    recognises=_is_principal,
+    suffixes=(".yml", ".yaml"),
+    variant="principal",
+    read_bicycle=read_parameter_set,
+    write_bicycle=lambda bicycle: write_parameter_set(bicycle, "principal"),
+    losses=_losses,
+)
+BENCHMARK = Format(
+    name="benchmark",
+    description="a YAML parameter set of BicycleParameters",
+    recognises=lambda clues: clues.suffix in {".yml", ".yaml"} or clues.colons > clues.equals,
+    suffixes=(".yml", ".yaml"),
+    variant="benchmark",
+    read_bicycle=read_parameter_set,
+    write_bicycle=write_parameter_set,
+    losses=_losses,
+)

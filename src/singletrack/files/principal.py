@@ -9,6 +9,8 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from singletrack.errors import InputError
 from singletrack.mechanics.rigid import PlanarBody, combine, principal_in_plane
 from singletrack.parameters.bicycle import Bicycle
@@ -18,7 +20,7 @@ from singletrack.parameters.symbols import NAMES
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from singletrack.files.entries import Entries
+    from singletrack.files.named_values import NamedValues
 
 __all__ = ["bicycle_from_principal", "principal_values"]
 
@@ -29,30 +31,36 @@ _OWN = (
     *("alphaH", "kHaa", "kHbb", "kHyy", "kFaa", "kFyy", "kRaa", "kRyy"),
 )
 _DEPENDENT = ("alphaF", "alphaR", "kFbb", "kRbb", "yD", "yF", "yH", "yP", "yR", "xR", "xF", "zR", "zF")
-_POSITIVE = ("mD", *(name for name in _OWN if name.startswith("k") and name[1] != "P"))
-_NOT_NEGATIVE = ("mP", "kPaa", "kPbb", "kPyy", "lP", "wP")
+_POSITIVE = ("mD",)
+_NOT_NEGATIVE = ("mP", *(name for name in _OWN if name.startswith("k")), "lP", "wP")
 
 
-def bicycle_from_principal(entries: Entries, source: str) -> Bicycle:
+def bicycle_from_principal(given: NamedValues, source: str) -> Bicycle:
     """Return the bicycle of a principal set, its rider lumped into the rear frame.
 
     The set's own values are kept in ``extras``, so that they can be written back to the digit.
+
+    Parameters
+    ----------
+    given : NamedValues
+    source : str
+        Where the numbers come from.
 
     Raises
     ------
     InputError
         For symbols that are unknown or missing, and values that are not allowed; names file, line and symbol.
     """
-    entries.require_known([*_SAME, *_OWN, *_DEPENDENT, "v"], "symbol")
-    entries.require([*_SAME, *_OWN], "the principal parameter set")
-    values = entries.values()
+    given.require_known([*_SAME, *_OWN, *_DEPENDENT, "v"], "symbol")
+    given.require([*_SAME, *_OWN], "the principal parameter set")
+    values = given.values()
     for names, least in ((_POSITIVE, "greater than zero"), (_NOT_NEGATIVE, "zero or more")):
         for name in names:
             if values[name] < 0 or (least != "zero or more" and values[name] == 0):
-                raise InputError(f"{entries.place(name)}: {name} = {values[name]:g}, must be {least}")
-    for name, deviation in entries.deviations().items():
-        raise InputError(f"{entries.place(name)}: {name} has a standard deviation ({deviation:g}), must have none here")
-    entries.require_equal(_dependent(values))
+                raise InputError(f"{given.place(name)}: {name} = {values[name]:g}, must be {least}")
+    for name, deviation in given.deviations().items():
+        raise InputError(f"{given.place(name)}: {name} has a standard deviation ({deviation:g}), must have none here")
+    given.require_equal(_dependent(values))
     own = {name: values[name] for name in (*_OWN, *_DEPENDENT, "v") if name in values}
     symbols = {NAMES[symbol]: symbol for symbol in _SAME}
     for end, letter in (("rear", "D"), ("front", "H")):
@@ -61,9 +69,9 @@ def bicycle_from_principal(entries: Entries, source: str) -> Bicycle:
         symbols |= {f"{end}_frame_inertia_{axis}": f"k{letter}{radius}" for axis, radius in axes.items()}
     for end, letter in (("rear", "R"), ("front", "F")):
         symbols |= {f"{end}_wheel_inertia_{axis}": f"k{letter}{r}" for axis, r in (("xx", "aa"), ("yy", "yy"))}
-    return entries.build(
+    return given.build(
         lambda: Bicycle(
-            name=entries.name, description=entries.description, source=source, extras=own, **_benchmark(values)
+            name=given.name, description=given.description, source=source, extras=own, **_benchmark(values)
         ),
         symbols,
     )
@@ -76,8 +84,6 @@ def _dependent(p: Mapping[str, float]) -> dict[str, float]:
 
 def _benchmark(p: Mapping[str, float]) -> dict[str, Any]:
     """Return our parameters from those of a principal set."""
-    import numpy as np
-
     # Masses and radii near the largest double overflow; the record then refuses what is not finite.
     with np.errstate(all="ignore"):
         rear = PlanarBody.of(combine([_body(p, "D").body(), _body(p, "P").body()]))
@@ -122,7 +128,7 @@ def principal_values(bicycle: Bicycle) -> dict[str, float]:
     bodies = bicycle_bodies(bicycle)
     values = {**same, **_principal(bodies["rear frame"], "D"), **_principal(bodies["front frame"], "H")}
     for letter, wheel in (("R", bodies["rear wheel"]), ("F", bodies["front wheel"])):
-        values |= {f"k{letter}{axes}": math.sqrt(i / wheel.mass) for axes, i in (("aa", wheel.xx), ("yy", wheel.yy))}
+        values |= {f"k{letter}{axes}": _gyration(i, wheel.mass) for axes, i in (("aa", wheel.xx), ("yy", wheel.yy))}
     rider = dict.fromkeys(("mP", "alphaP", "kPaa", "kPbb", "kPyy", "lP", "wP"), 0.0)
     values |= {**rider, "xP": values["xD"], "zP": values["zD"]}
     return {**values, **_dependent(values)}
@@ -135,7 +141,12 @@ def _principal(body: PlanarBody, letter: str) -> dict[str, float]:
         f"x{letter}": float(body.x),
         f"z{letter}": float(body.z),
         f"alpha{letter}": float(angle),
-        f"k{letter}aa": math.sqrt(larger / body.mass),
-        f"k{letter}bb": math.sqrt(smaller / body.mass),
-        f"k{letter}yy": math.sqrt(body.yy / body.mass),
+        f"k{letter}aa": _gyration(larger, body.mass),
+        f"k{letter}bb": _gyration(smaller, body.mass),
+        f"k{letter}yy": _gyration(body.yy, body.mass),
     }
+
+
+def _gyration(moment: float, mass: float) -> float:
+    """Return a radius of gyration: zero for a massless wheel, and for a moment of a rod that rounds to below zero."""
+    return math.sqrt(max(float(moment), 0.0) / float(mass)) if mass else 0.0

@@ -6,12 +6,30 @@ import math
 import re
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from singletrack.errors import InputError
+from singletrack.files.format import Format
+from singletrack.files.source import lines_of
 
 if TYPE_CHECKING:
-    import numpy as np
+    from singletrack.files.format import Clues
 
-__all__ = ["read_signal"]
+__all__ = ["FORMAT", "read_signal"]
+
+_NUMBER = re.compile(r"[+-]?(?:[0-9]++\.?[0-9]*+|\.[0-9]++)(?:[eE][+-]?[0-9]++)?")
+
+
+def _recognises(clues: Clues) -> bool:
+    return clues.suffix == ".csv" and not clues.equals + clues.colons
+
+
+FORMAT = Format(
+    name="signal",
+    description="a recorded signal",
+    recognises=_recognises,
+    used_by="`singletrack period FILE` fits an oscillation to it",
+)
 
 
 def read_signal(text: str, where: str) -> tuple[np.ndarray, np.ndarray]:
@@ -34,17 +52,15 @@ def read_signal(text: str, where: str) -> tuple[np.ndarray, np.ndarray]:
     InputError
         With file and line, for a line that is not two finite numbers.
     """
-    import numpy as np
-
     rows: list[tuple[float, float]] = []
     heading = False
-    for number, line in enumerate(text.replace("\r\n", "\n").replace("\r", "\n").split("\n"), start=1):
+    for number, line in enumerate(lines_of(text), start=1):
         content = line.split("#", 1)[0].strip()
         if not content:
             continue
         pair = _two_numbers(content)
         if pair is None:
-            if not rows and not heading and not re.match(r"[+-]?[\d.]", content):
+            if not rows and not heading and not _NUMBER.match(content):
                 heading = True
                 continue
             raise InputError(
@@ -58,9 +74,8 @@ def read_signal(text: str, where: str) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _two_numbers(content: str) -> tuple[float, float] | None:
-    cells = [cell for cell in re.split(r"[,;\s]+", content) if cell]
-    try:
-        first, second = (float(cell) for cell in cells)
-    except ValueError:
+    cells = content.replace(",", " ").replace(";", " ").split()
+    if len(cells) != 2 or not all(map(_NUMBER.fullmatch, cells)):
         return None
+    first, second = map(float, cells)
     return (first, second) if math.isfinite(first) and math.isfinite(second) else None

@@ -1,53 +1,71 @@
-"""Forward speeds as text."""
+"""Forward speeds as people type them."""
 
 from __future__ import annotations
 
-from math import isfinite
-from typing import TYPE_CHECKING
+import re
+
+import numpy as np
 
 from singletrack.errors import InputError
-
-if TYPE_CHECKING:
-    import numpy as np
+from singletrack.parameters.units import parse_quantity
 
 __all__ = ["parse_speeds"]
 
-_ALLOWED = "must be START:STOP:COUNT in m/s with 0 <= START < STOP and 2 <= COUNT <= 1000000, or one speed"
 _MOST = 1_000_000
+_ALLOWED = (
+    "must be START:STOP:COUNT in m/s with 0 <= START < STOP and 2 <= COUNT <= 1000000, or one speed, or a list "
+    'such as "4, 6, 8"; with a unit where it is another: "5 km/h:40 km/h:8"'
+)
 
 
 def parse_speeds(text: str, name: str = "--speeds") -> np.ndarray:
-    """Return the speeds (n,) in m/s that START:STOP:COUNT or a single value stands for.
+    """Return the speeds (n,) in m/s that START:STOP:COUNT, a single value or a list stands for.
 
     Parameters
     ----------
     text : str
+        Each number may have a unit of speed.
     name : str
         What the text was given for, for the message.
 
     Raises
     ------
     InputError
-        If the text is neither.
+        If the text is nothing of the kind, or a speed is negative or not finite.
 
     Examples
     --------
-    >>> parse_speeds("0:10:5").tolist(), parse_speeds("4.6").tolist()
-    ([0.0, 2.5, 5.0, 7.5, 10.0], [4.6])
+    >>> parse_speeds("0:10:5").tolist(), parse_speeds("18 km/h, 6").tolist()
+    ([0.0, 2.5, 5.0, 7.5, 10.0], [5.0, 6.0])
     """
-    import numpy as np  # lazy: `import singletrack` stays light
-
+    wrong = f"{name} {text[:80]!r}: {_ALLOWED}"
     parts = text.split(":")
-    wrong = InputError(f"{name} {text!r}: {_ALLOWED}", parameters=("speeds",), found=text, allowed=_ALLOWED)
-    try:
-        numbers = [float(part) for part in parts[:2]]
-        count = int(parts[2]) if len(parts) == 3 else 1
-    except (ValueError, OverflowError):
-        raise wrong from None
-    if not all(isfinite(number) and number >= 0 for number in numbers):
-        raise wrong
     if len(parts) == 1:
-        return np.array(numbers)
-    if len(parts) != 3 or not numbers[0] < numbers[1] or not 2 <= count <= _MOST:
-        raise wrong
-    return np.linspace(numbers[0], numbers[1], count)
+        cells = text.split(",")
+        if len(cells) > _MOST:
+            raise _refused(wrong, text)
+        return np.array([_speed(cell, name, wrong, text) for cell in cells])
+    count = parts[2].strip() if len(parts) == 3 else ""
+    if not re.fullmatch(r"[0-9]{1,7}", count):  # no digits of other scripts, no underscores
+        raise _refused(wrong, text)
+    start, stop = (_speed(part, name, wrong, text) for part in parts[:2])
+    if not start < stop or not 2 <= int(count) <= _MOST:
+        raise _refused(wrong, text)
+    return np.linspace(start, stop, int(count))
+
+
+def _speed(cell: str, name: str, wrong: str, text: str) -> float:
+    try:
+        quantity = parse_quantity(cell.strip(), "m/s")
+    except InputError as error:
+        raise _refused(f"{name}: {error.reason}" if cell.strip() else wrong, text) from None
+    if not np.isfinite(quantity.value) or quantity.deviation is not None:
+        raise _refused(wrong, text)
+    if quantity.value < 0:
+        reason = f"{name}: found {quantity.value:g} m/s, must be zero or more (modes are named for riding forward)"
+        raise _refused(reason, text)
+    return quantity.value
+
+
+def _refused(reason: str, text: str) -> InputError:
+    return InputError(reason, parameters=("speeds",), found=text, allowed=_ALLOWED)

@@ -1,25 +1,40 @@
-"""Our own TOML files, read: a bicycle or a rider, with units and standard deviations."""
+"""Our own TOML files, read."""
 
 from __future__ import annotations
 
 import re
 import tomllib
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
-from singletrack.errors import InputError, SingletrackError, unknown, unknown_name
-from singletrack.files.source import place_of
+from singletrack.errors import InputError, SingletrackError, unknown_name
+from singletrack.files.toml_keys import line_of_deep_key, place_of, place_of_any
+from singletrack.parameters.hints import unknown_parameter
 from singletrack.parameters.record import Record
 from singletrack.parameters.rider import Rider
-from singletrack.parameters.shapes import segment_shape
+from singletrack.parameters.shapes import SegmentShape, segment_shape
 from singletrack.parameters.units import parse_quantity
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
 
 __all__ = ["parse_record"]
 
 R = TypeVar("R", bound=Record)
 
-_HEADER = ("kind", "name", "description", "source", "parameters")
+_TEXTS = ("name", "description", "source")
+_HEADER = ("kind", *_TEXTS, "parameters")
 _TABLES = {"bicycle": ("extras",), "rider": ("segments",)}
+
+
+class _File(NamedTuple):
+    """What messages need: the file's name and its text."""
+
+    where: str
+    text: str
+
+    def place(self, name: str) -> str:
+        return place_of(self.where, self.text, name)
 
 
 def parse_record(cls: type[R], text: str, where: str) -> R:
@@ -39,98 +54,113 @@ def parse_record(cls: type[R], text: str, where: str) -> R:
     InputError
         Names the file, the line, the parameter, what was found and what is allowed.
     """
-    try:
-        document = tomllib.loads(text)
-    except tomllib.TOMLDecodeError as error:
-        raise InputError(f"{where}: is not valid TOML: {error}") from None
-    except RecursionError:
-        raise InputError(f"{where}: is not valid TOML: nested too deeply") from None
-    except ValueError:  # Python's limit on the digits of whole numbers
-        longest = max(re.finditer(r"\d+", text), key=lambda found: len(found[0]))
-        line = text.count("\n", 0, longest.start()) + 1
-        raise InputError(f"{where}, line {line}: found a number of {len(longest[0])} digits, must be shorter") from None
-    header = _checked_header(cls, document, where, text)
-    fields, deviations = _quantities(cls, header.pop("parameters"), where, text)
-    fields |= _tables(cls, document, where, text)
+    file = _File(where, text)
+    document = _parsed(file)
+    parameters = _checked_header(cls, document, file)
+    fields, deviations = _quantities(cls, parameters, file)
+    extras, uncertain = _extras(cls, document, file)
+    shapes = {"shapes": _shapes(document, file)} if cls is Rider else {"extras": extras}
+    texts = {name: document.get(name, "") for name in _TEXTS} | {"name": document.get("name", Path(where).stem)}
     missing = [name for name, p in cls.descriptions().items() if not p.optional and name not in fields]
     if missing:
-        raise InputError(f"{where}: [parameters] lacks {', '.join(missing)}")
+        raise InputError(f"{where}: [parameters] lacks {', '.join(missing)}", parameters=missing)
     try:
-        return cls(**fields, **header, standard_deviations=deviations)
+        return cls(**fields, **shapes, **texts, standard_deviations=deviations | uncertain)  # type: ignore[arg-type]  # checked above
     except SingletrackError as error:
-        raise error.located(lambda names: _place_of_any(where, text, names)) from None
+        raise error.located(lambda names: place_of_any(where, text, names)) from None
 
 
-def _checked_header(cls: type[R], document: dict[str, Any], where: str, text: str) -> dict[str, Any]:
+def _parsed(file: _File) -> dict[str, object]:
+    deep = line_of_deep_key(file.text)
+    if deep is not None:
+        raise InputError(f"{file.where}, line {deep}: is not valid TOML: nested too deeply (dots)")
+    try:
+        return tomllib.loads(file.text)
+    except tomllib.TOMLDecodeError as error:
+        raise InputError(f"{file.where}: is not valid TOML: {error}") from None
+    except RecursionError:
+        raise InputError(f"{file.where}: is not valid TOML: nested too deeply") from None
+    except ValueError:  # Python's limit on the digits of whole numbers
+        longest = max(re.finditer(r"\d+", file.text), key=lambda found: len(found[0]))
+        line = file.text.count("\n", 0, longest.start()) + 1
+        found = f"found a number of {len(longest[0])} digits, must be shorter"
+        raise InputError(f"{file.where}, line {line}: {found}") from None
+
+
+def _checked_header(cls: type[R], document: Mapping[str, object], file: _File) -> Mapping[str, object]:
+    """Return the parameters of a document of which the rest was checked."""
     if not document:
-        raise InputError(f"{where}: is empty; `singletrack template {cls.kind}` prints a file to fill in")
+        raise InputError(f"{file.where}: is empty; `singletrack template {cls.kind}` prints a file to fill in")
     allowed = (*_HEADER, *_TABLES.get(cls.kind, ()))
     for name in document:
         if name not in allowed:
             place = "; parameters go under [parameters]" if name in cls.descriptions() else ""
-            raise InputError(f"{place_of(where, text, name)}: {unknown_name('entry', name, allowed)}{place}")
+            raise InputError(f"{file.place(name)}: {unknown_name('entry', name, allowed)}{place}")
     if document.get("kind", cls.kind) != cls.kind:
-        raise InputError(f"{place_of(where, text, 'kind')}: is a {document['kind']!r} file, must be a {cls.kind}")
-    if not isinstance(document.get("parameters"), dict):
-        raise InputError(f"{where}: has no [parameters]; `singletrack template {cls.kind}` prints a file to fill in")
-    for name in ("name", "description", "source"):
+        found = repr(document["kind"])[:60]
+        raise InputError(f"{file.place('kind')}: is a {found} file, must be a {cls.kind}")
+    parameters = document.get("parameters")
+    if not isinstance(parameters, dict):
+        raise InputError(
+            f"{file.where}: has no [parameters]; `singletrack template {cls.kind}` prints a file to fill in"
+        )
+    for name in _TEXTS:
         if not isinstance(document.get(name, ""), str):
-            raise InputError(f"{place_of(where, text, name)}: {name} = {document[name]!r}, must be text")
-    return {
-        "name": document.get("name", Path(where).stem),
-        "source": document.get("source", ""),
-        "description": document.get("description", ""),
-        "parameters": document["parameters"],
-    }
+            raise InputError(f"{file.place(name)}: {name} = {repr(document[name])[:60]}, must be text")
+    return parameters
 
 
 def _quantities(
-    cls: type[R], parameters: dict[str, Any], where: str, text: str
-) -> tuple[dict[str, Any], dict[str, float]]:
-    fields: dict[str, Any] = {}
+    cls: type[R], parameters: Mapping[str, object], file: _File
+) -> tuple[dict[str, object], dict[str, float]]:
+    """Return values by parameter, and standard deviations where given."""
+    fields: dict[str, object] = {}
     deviations: dict[str, float] = {}
     descriptions = cls.descriptions()
     for name, found in parameters.items():
-        place = place_of(where, text, name)
         if name not in descriptions:
-            raise unknown(f"{cls.kind} parameter", name, descriptions, place)
-        try:
-            if cls is Rider and name == "forward_lean_angle" and isinstance(found, dict):
-                angles = {bicycle: parse_quantity(angle, "rad") for bicycle, angle in found.items()}
-                fields["forward_lean_angles"] = {bicycle: angle.value for bicycle, angle in angles.items()}
-                deviations |= {
-                    f"forward_lean_angle on {bicycle}": angle.deviation
-                    for bicycle, angle in angles.items()
-                    if angle.deviation is not None
-                }
-                continue
-            quantity = parse_quantity(found, descriptions[name].unit)
-        except InputError as error:
-            raise error.of(name).at(place) from None
-        fields[name] = quantity.value
-        if quantity.deviation is not None:
-            deviations[name] = quantity.deviation
+            raise unknown_parameter(cls.kind, name, descriptions).at(file.place(name))
+        several = cls is Rider and name == "forward_lean_angle" and isinstance(found, dict)
+        values = found if isinstance(found, dict) and several else {"": found}
+        angles = {}
+        for bicycle, value in values.items():
+            try:
+                quantity = parse_quantity(value, descriptions[name].unit)
+            except InputError as error:
+                raise error.of(name).at(file.place(name)) from None
+            angles[bicycle] = quantity.value
+            if quantity.deviation is not None:
+                deviations[f"{name} on {bicycle}" if several else name] = quantity.deviation
+        if several:
+            fields["forward_lean_angles"] = angles
+        else:
+            fields[name] = angles[""]
     return fields, deviations
 
 
-def _tables(cls: type[R], document: dict[str, Any], where: str, text: str) -> dict[str, Any]:
-    """Return what the tables besides [parameters] hold: a rider's segment shapes, numbers kept from other formats."""
-    fields: dict[str, Any] = {}
-    for table in _TABLES.get(cls.kind, ()):
-        found = document.get(table, {})
-        if not isinstance(found, dict):
-            raise InputError(f"{place_of(where, text, table)}: {table} must be a table [{table}]")
+def _table(name: str, document: Mapping[str, object], file: _File) -> Mapping[str, object]:
+    found = document.get(name, {})
+    if not isinstance(found, dict):
+        raise InputError(f"{file.place(name)}: {name} must be a table [{name}]")
+    return found
+
+
+def _shapes(document: Mapping[str, object], file: _File) -> dict[str, SegmentShape]:
+    try:
+        return {name: segment_shape(name, values) for name, values in _table("segments", document, file).items()}
+    except InputError as error:
+        raise error.at(file.place("segments")) from None
+
+
+def _extras(cls: type[R], document: Mapping[str, object], file: _File) -> tuple[dict[str, float], dict[str, float]]:
+    """Return the numbers kept from other formats, and standard deviations where given."""
+    values, deviations = {}, {}
+    for name, found in (_table("extras", document, file) if cls.kind == "bicycle" else {}).items():
         try:
-            if table == "segments":
-                fields["shapes"] = {name: segment_shape(name, values) for name, values in found.items()}
-            else:
-                fields[table] = {name: parse_quantity(value, "").value for name, value in found.items()}
+            quantity = parse_quantity(found, "")
         except InputError as error:
-            raise error.at(place_of(where, text, table)) from None
-    return fields
-
-
-def _place_of_any(where: str, text: str, names: tuple[str, ...]) -> str:
-    """Return the file with the line on which the first of the names is set that is set at all."""
-    places = (place_of(where, text, name) for name in names)
-    return next((place for place in places if place != where), where)
+            raise error.of(name).at(file.place(name)) from None
+        values[name] = quantity.value
+        if quantity.deviation is not None:
+            deviations[name] = quantity.deviation
+    return values, deviations

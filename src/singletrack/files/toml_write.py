@@ -73,7 +73,9 @@ def _lean_angles(record: Record, description: Parameter) -> list[str]:
 def _tables(record: Record) -> Iterator[str]:
     if record.extras:
         yield from ("", "[extras] # numbers of another format, kept for writing back")
-        yield from (f"{_key(name)} = {float(value)!r}" for name, value in record.extras.items())
+        deviations = record.standard_deviations
+        for name, value in record.extras.items():
+            yield f"{_key(name)} = {quantity_text(float(value), deviations.get(name), '')}"
     for name, shape in getattr(record, "shapes", {}).items():
         yield from ("", f"[segments.{_key(name)}] # fractions of its length")
         yield from (f"{part} = {float(value)!r}" for part, value in dataclasses.asdict(shape).items())

@@ -7,16 +7,16 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from singletrack.errors import InputError
-from singletrack.files.entries import Entries
-from singletrack.files.numbers import parse_number
+from singletrack.files.named_values import NamedValues
+from singletrack.files.uncertain import parse_number
 
 if TYPE_CHECKING:
     from singletrack.parameters.units import Quantity
 
 __all__ = ["Item", "numbers", "read_mapping"]
 
-# The parser takes about a second for this much; parameter files are a page of text.
-_LONGEST = 60_000
+# Parameter files are a page of text, and the parser is slow where it is not the compiled one.
+_LONGEST = 30_000
 _DEEPEST = 20
 
 
@@ -94,7 +94,7 @@ def _mapping(node: Any, yaml: Any, where: str) -> dict[str, Item]:
     return items
 
 
-def numbers(items: Mapping[str, Item], where: str, name: str = "", description: str = "") -> Entries:
+def numbers(items: Mapping[str, Item], where: str, name: str = "", description: str = "") -> NamedValues:
     """Return the values of a mapping as numbers.
 
     Raises
@@ -110,4 +110,4 @@ def numbers(items: Mapping[str, Item], where: str, name: str = "", description: 
             quantities[key] = parse_number(item.value)
         except InputError as error:
             raise InputError(f"{where}, line {item.line}: {key[:60]} {error}") from None
-    return Entries(where, quantities, {key: item.line for key, item in items.items()}, name, description)
+    return NamedValues(where, quantities, {key: item.line for key, item in items.items()}, name, description)

@@ -16,6 +16,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from singletrack.errors import InputError
+from singletrack.files.format import Format
 from singletrack.files.yaml_text import numbers, read_mapping
 from singletrack.parameters.rider import MASS_FRACTIONS, Rider
 from singletrack.parameters.shapes import SegmentShape
@@ -23,9 +24,9 @@ from singletrack.parameters.shapes import SegmentShape
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from singletrack.files.entries import Entries
+    from singletrack.files.named_values import NamedValues
 
-__all__ = ["MEASUREMENTS", "read_configuration", "read_yeadon"]
+__all__ = ["CONFIGURATION", "FORMAT", "MEASUREMENTS", "read_configuration", "read_yeadon"]
 
 
 def _names(limb: str, lengths: str, perimeters: str, widths: str, depths: str = "") -> list[str]:
@@ -67,18 +68,18 @@ def read_configuration(text: str, where: str) -> float:
     InputError
         For a trunk that is bent, tilted or twisted, or a lean that is not between 0 and 90 deg.
     """
-    entries = numbers(read_mapping(text, where), where)
-    entries.require_known(["somersault", *_STRAIGHT, *_LIMBS], "angle")
-    entries.require(["somersault"], "the configuration")
-    for name, value in entries.values().items():
+    given = numbers(read_mapping(text, where), where)
+    given.require_known(["somersault", *_STRAIGHT, *_LIMBS], "angle")
+    given.require(["somersault"], "the configuration")
+    for name, value in given.values().items():
         if name in _STRAIGHT and value != 0:
             raise InputError(
-                f"{entries.place(name)}: {name} = {value:g} rad, must be 0: a rider's trunk is straight here"
+                f"{given.place(name)}: {name} = {value:g} rad, must be 0: a rider's trunk is straight here"
             )
-    lean = math.pi / 2 - entries.quantities["somersault"].value
+    lean = math.pi / 2 - given.quantities["somersault"].value
     if not 0 < lean < math.pi / 2:
         raise InputError(
-            f"{entries.place('somersault')}: somersault = {math.pi / 2 - lean:g} rad, must be between 0 and pi/2 "
+            f"{given.place('somersault')}: somersault = {math.pi / 2 - lean:g} rad, must be between 0 and pi/2 "
             "(the trunk leans forward by it from upright)"
         )
     return lean
@@ -101,9 +102,9 @@ def read_yeadon(text: str, where: str, forward_lean_angle: float | None = None) 
     InputError
         Names file, line, measurement, what was found and what is allowed; or says how to install ``yeadon``.
     """
-    entries = numbers(read_mapping(text, where), where, _short_name(where))
-    metres, mass = _checked(entries)
-    human = _human(entries, metres, mass)
+    given = numbers(read_mapping(text, where), where, _short_name(where))
+    metres, mass = _checked(given)
+    human = _human(given, metres, mass)
     segments = {name: _combined(parts) for name, parts in _solids(human).items()}
     lengths = _lengths(human.meas)
     total = sum(MASS_FRACTIONS[f"{name}_mass_fraction"] * body[0] for name, body in segments.items())
@@ -113,7 +114,7 @@ def read_yeadon(text: str, where: str, forward_lean_angle: float | None = None) 
 
     def make() -> Rider:
         return Rider(
-            name=entries.name,
+            name=given.name,
             description="From Yeadon's 95 measurements",
             source=f"measurements {Path(where).name}, solids of the yeadon package",
             rider_mass=float(total),
@@ -123,48 +124,48 @@ def read_yeadon(text: str, where: str, forward_lean_angle: float | None = None) 
             **fractions,
         )
 
-    return entries.build(make, {"shoulder_to_shoulder": "Ls4w", "chest_circumference": "Ls3p"})
+    return given.build(make, {"shoulder_to_shoulder": "Ls4w", "chest_circumference": "Ls3p"})
 
 
 def _short_name(where: str) -> str:
     return Path(where).stem.removesuffix("Meas").removesuffix("Yeadon").lower() or Path(where).stem
 
 
-def _checked(entries: Entries) -> tuple[dict[str, float], float | None]:
+def _checked(given: NamedValues) -> tuple[dict[str, float], float | None]:
     """Return the measurements in m and the total mass."""
-    entries.require_known([*MEASUREMENTS, *_ALSO], "measurement")
-    entries.require([*MEASUREMENTS, "measurementconversionfactor"], "the measurements")
-    values = entries.values()
+    given.require_known([*MEASUREMENTS, *_ALSO], "measurement")
+    given.require([*MEASUREMENTS, "measurementconversionfactor"], "the measurements")
+    values = given.values()
     for name, value in values.items():
         if value <= 0:
-            raise InputError(f"{entries.place(name)}: {name} = {value:g}, must be greater than zero")
+            raise InputError(f"{given.place(name)}: {name} = {value:g}, must be greater than zero")
     factor = values["measurementconversionfactor"]
     for name in MEASUREMENTS:
         metres = values[name] * factor
         if not 1e-3 < metres < 3:
             raise InputError(
-                f"{entries.place(name)}: {name} = {values[name]:g} is {metres:g} m with "
+                f"{given.place(name)}: {name} = {values[name]:g} is {metres:g} m with "
                 f"measurementconversionfactor {factor:g}, must be between 0.001 and 3 m"
             )
     for chain in _CHAINS:
         for inner, outer in itertools.pairwise(chain):
             if values[outer] <= values[inner]:
                 raise InputError(
-                    f"{entries.place(outer)}: {outer} = {values[outer]:g}, must be more than "
+                    f"{given.place(outer)}: {outer} = {values[outer]:g}, must be more than "
                     f"{inner} = {values[inner]:g}, which is nearer to the joint both are measured from"
                 )
     mass = values.get("totalmass")
     if mass is not None and not 1 < mass < 1000:
-        raise InputError(f"{entries.place('totalmass')}: totalmass = {mass:g} kg, must be between 1 and 1000 kg")
+        raise InputError(f"{given.place('totalmass')}: totalmass = {mass:g} kg, must be between 1 and 1000 kg")
     return {name: values[name] * factor for name in MEASUREMENTS}, mass
 
 
-def _human(entries: Entries, metres: dict[str, float], mass: float | None) -> Any:
+def _human(given: NamedValues, metres: dict[str, float], mass: float | None) -> Any:
     try:
         import yeadon  # optional
     except ImportError:
         raise InputError(
-            f"{entries.where}: reading Yeadon's measurements needs yeadon: pip install 'singletrack[yeadon]'"
+            f"{given.where}: reading Yeadon's measurements needs yeadon: pip install 'singletrack[yeadon]'"
         ) from None
     import numpy as np
 
@@ -179,7 +180,7 @@ def _human(entries: Entries, metres: dict[str, float], mass: float | None) -> An
                 human.scale_human_by_mass(mass)
     except Exception as error:  # noqa: BLE001  # the package raises bare Exception
         reason = str(error).strip().splitlines()[0][:200] if str(error).strip() else type(error).__name__
-        raise InputError(f"{entries.where}: the measurements make no body ({reason})") from None
+        raise InputError(f"{given.where}: the measurements make no body ({reason})") from None
     return human
 
 
@@ -259,3 +260,17 @@ def _outlines(m: dict[str, float]) -> dict[str, float]:
         "upper_leg_circumference": float(m["Lj2p"]),
         "lower_leg_circumference": float(m["Lj4p"]),
     }
+
+
+FORMAT = Format(
+    name="yeadon",
+    description="Yeadon's 95 measurements",
+    recognises=lambda clues: "measurementconversionfactor" in clues.values or {"Ls1L", "La2L"} <= set(clues.values),
+    read_rider=read_yeadon,
+)
+CONFIGURATION = Format(
+    name="configuration",
+    description="a configuration of Yeadon's human",
+    recognises=lambda clues: "somersault" in clues.values,
+    used_by="`singletrack convert MEASUREMENTS OUTPUT --configuration FILE` takes it",
+)

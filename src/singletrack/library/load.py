@@ -8,16 +8,17 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from singletrack.errors import InputError, SingletrackError, unknown_name
-from singletrack.files.reading import is_rider, read_record
-from singletrack.files.source import read_text
-from singletrack.files.toml_read import parse_record
-from singletrack.parameters.bicycle import Bicycle
+from singletrack.files.registry import read_any, read_bicycle, read_rider
+from singletrack.files.source import LARGEST_PARAMETERS, is_there, read_text
+from singletrack.files.yeadon import read_configuration, read_yeadon
 from singletrack.parameters.record import Record
-from singletrack.parameters.rider import Rider
 from singletrack.parameters.units import parse_quantity
 
 if TYPE_CHECKING:
     from importlib.resources.abc import Traversable
+
+    from singletrack.parameters.bicycle import Bicycle
+    from singletrack.parameters.rider import Rider
 
 __all__ = ["load_any", "load_bicycle", "load_rider", "override", "shipped"]
 
@@ -34,10 +35,13 @@ def shipped(kind: str) -> dict[str, Traversable]:
     Examples
     --------
     >>> list(shipped("bicycle"))
-    ['benchmark', 'browser', 'kooijman-2008', 'stratos']
+    ['benchmark', 'browser', 'browser-2012', 'kooijman-2008', 'stratos', 'stratos-2012']
     """
     folder = resources.files("singletrack") / "data" / f"{kind}s"
-    files = sorted((file for file in folder.iterdir() if file.name.endswith(".toml")), key=lambda file: file.name)
+    files = sorted(
+        (file for file in folder.iterdir() if file.name.endswith(".toml")),
+        key=lambda file: file.name.removesuffix(".toml"),
+    )
     return {file.name.removesuffix(".toml"): file for file in files}
 
 
@@ -60,54 +64,54 @@ def load_bicycle(name_or_path: str | Path) -> Bicycle:
     >>> load_bicycle("stratos").wheel_base
     1.037
     """
-    return _load(Bicycle, name_or_path)
+    return read_bicycle(*_text(name_or_path, "bicycle"))
 
 
-def load_rider(name_or_path: str | Path) -> Rider:
+def load_rider(name_or_path: str | Path, configuration: str | Path | None = None) -> Rider:
     """Load a rider: a shipped name (``rider-a``), a TOML file, or Yeadon's 95 measurements.
 
     Errors as in :func:`load_bicycle`. Yeadon's measurements need the optional package ``yeadon``.
+
+    Parameters
+    ----------
+    name_or_path : str or path
+    configuration : path, optional
+        Configuration of Yeadon's human, for the forward lean angle of a rider by 95 measurements.
 
     Examples
     --------
     >>> load_rider("rider-a").rider_mass
     72.0
     """
-    return _load(Rider, name_or_path)
+    if configuration is None:
+        return read_rider(*_text(name_or_path, "rider"))
+    lean = read_configuration(read_text(Path(configuration), LARGEST_PARAMETERS), str(configuration))
+    return read_yeadon(*_text(name_or_path, "rider"), lean)
 
 
-def load_any(name_or_path: str | Path) -> Bicycle | Rider:
-    """Load a bicycle or a rider, whichever it is; errors as in :func:`load_bicycle`.
+def load_any(name_or_path: str | Path, configuration: str | Path | None = None) -> Bicycle | Rider:
+    """Load a bicycle or a rider, whichever it is (arguments and errors as for :func:`load_rider`).
 
     >>> load_any("rider-a").kind
     'rider'
     """
-    if str(name_or_path) in shipped("rider"):
-        return load_rider(name_or_path)
-    if str(name_or_path) in shipped("bicycle"):
-        return load_bicycle(name_or_path)
-    path = Path(name_or_path)
-    if not _is_there(path):
-        known = [*shipped("bicycle"), *shipped("rider")]
-        raise InputError(f"{unknown_name('name', str(name_or_path)[:200], known)}, and there is no such file")
-    return load_rider(path) if is_rider(read_text(path), str(path)) else load_bicycle(path)
+    if configuration is not None:
+        return load_rider(name_or_path, configuration)
+    return read_any(*_text(name_or_path, "bicycle", "rider"))
 
 
-def _is_there(path: Path) -> bool:
-    try:
-        return path.exists()
-    except (OSError, ValueError):  # a name too long, or with a NUL
-        return False
-
-
-def _load(cls: type[R], name_or_path: str | Path) -> R:
-    known = shipped(cls.kind)
+def _text(name_or_path: str | Path, *kinds: str) -> tuple[str, str]:
+    """Return the text of a shipped thing or a file, and what to call it in messages."""
+    if not isinstance(name_or_path, str | Path):
+        raise InputError(f"{' or '.join(kinds)} {name_or_path!r}: must be a name or a path")
+    known = {name: file for kind in kinds for name, file in shipped(kind).items()}
     if isinstance(name_or_path, str) and name_or_path in known:
-        return parse_record(cls, known[name_or_path].read_text(encoding="utf-8"), name_or_path)
+        return known[name_or_path].read_text(encoding="utf-8"), f"{name_or_path}.toml"
     path = Path(name_or_path)
-    if not _is_there(path):
-        raise InputError(f"{unknown_name(cls.kind, str(name_or_path)[:200], known)}, and there is no such file")
-    return read_record(cls, read_text(path), str(path))
+    if not is_there(path):
+        what = kinds[0] if len(kinds) == 1 else "name"
+        raise InputError(f"{unknown_name(what, str(name_or_path)[:200], known)}, and there is no such file")
+    return read_text(path, LARGEST_PARAMETERS), str(path)
 
 
 def override(record: R, texts: dict[str, str], where: str = "--set") -> R:

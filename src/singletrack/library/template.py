@@ -1,79 +1,11 @@
-"""Files to fill in, with what each number is and where it is measured."""
+"""Files to fill in."""
 
 from __future__ import annotations
 
-import itertools
-from typing import TYPE_CHECKING
-
 from singletrack.errors import InputError, unknown_name
-from singletrack.files.toml_write import unit_text
-from singletrack.measuring.raw import RAW
-from singletrack.parameters.bicycle import Bicycle
-from singletrack.parameters.record import ALLOWED
-from singletrack.parameters.rider import Rider
+from singletrack.files.registry import templates
 
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from singletrack.parameters.record import Parameter
-
-__all__ = ["KINDS", "template"]
-
-KINDS = ("bicycle", "rider", "measurements")
-
-_BICYCLE_SKETCH = r"""
-               saddle           g-----s
-                ---                    \
-                  \                     \        s-g  handlebar_length, horizontally; g is the grip,
-                   t---------------------h            positive where g is behind s, negative in front
-                    \                  /  \     h-s  stem_length, along the steer axis; h is level with t
-                     \              /      c    c-f  fork_length, straight; c is the crown, on the steer axis
-        .-----.       \          /    .----\.   b-t  seat_tube_length, leaning by seat_tube_angle from the ground
-      /         \      \      /     /       \ \  t-saddle  seat_post_length, along the same line
-     |     r-----------------b      |    f   \ | r-b  chain_stay_length
-      \     |   /           |        \   |    /\ b-ground  bottom_bracket_height
-    ____`-----'_____________|__________`-----'___\_____ ground
-           |                           |          |
-           |<------- wheel_base ------>|<-trail-->|   the steer axis meets the ground ahead of the contact
-
-    Wheel radius: hub to ground, under load (distance rolled in n turns / (2 pi n)).
-    x points forward and z points down, from the rear contact: heights of centres of mass are negative.
-    seat_tube_angle is from the ground (some 70 deg), steer_axis_tilt from the vertical (some 18 deg).
-"""
-
-_RIDER_SKETCH = r"""
-              ___
-             (   )  head_circumference, around the forehead
-              \_/
-        o------+------o   shoulder_to_shoulder, joint to joint
-       /|             |\
-      / |    chest    | \  upper_arm_length, shoulder to elbow; circumference at the middle
-     o  | circumference| o
-      \ |             | /  lower_arm_length, elbow to the grip in the closed hand
-       \|             |/
-        |  torso_length    hip joints to shoulder joints, along the back
-        o------+------o    hip_joint_to_hip_joint
-        |             |
-        |             |    upper_leg_length, hip to knee; circumference at the middle
-        o             o
-        |             |    lower_leg_length, knee to the pedal under the foot
-        o             o
-    forward_lean_angle: the torso from the horizontal (upright: 90 deg), on the bicycle.
-"""
-
-_RAW_SKETCH = r"""
-    1. Roll:  d = distance of n turns, rider on or off as you ride       2. Torsional pendulum (three orientations)
-    3. Compound pendulum: period while swinging about the wheel's axle        ======  ceiling
-                                                                                |     rod; calibrate it once with
-         knife edge ->  ^                                                       |     a straight bar: mP, lP, dP, TtP1
-                       /|\    T = Tc..1                                       --o--   frame, hung in orientations 1 2 3
-                      / | \   l = axis to centre                              /   \   angles alpha.. of the head tube,
-                        o     (wheels: lF, lR)                                        periods Tt..1, Tt..2, Tt..3
-    4. Plumb line through the hanging point in each orientation: a = its distance from the wheel centre
-       (a > 0 where the wheel centre lies to the left of the line, seen from the bicycle's right side).
-    alpha: from the horizontal, pointing right, counter-clockwise to the steer axis, pointing up, seen from the
-       bicycle's right side; on its wheels a bicycle has alpha = 90 deg + steer axis tilt.
-"""
+__all__ = ["template"]
 
 
 def template(kind: str) -> str:
@@ -92,52 +24,9 @@ def template(kind: str) -> str:
     Examples
     --------
     >>> print(template("bicycle").splitlines()[-1])
-    stem_length = "? m" # optional, ls: along the steer axis; greater than zero
+    # handlebar_drop = "? m" # optional, hhb: grips below the stem top (negative: above); else none; a finite number
     """
-    if kind not in KINDS:
-        raise InputError(unknown_name("kind", kind, KINDS))
-    if kind == "measurements":
-        return "\n".join(_raw_lines()) + "\n"
-    cls = Bicycle if kind == "bicycle" else Rider
-    sketch = _BICYCLE_SKETCH if kind == "bicycle" else _RIDER_SKETCH
-    lines = [
-        f"# A {kind} for singletrack. Replace each ? by a number; the unit may be another one of the same kind (mm,",
-        '# in, lb). A standard deviation may follow: "0.0563 +/- 0.0017 m". Delete optional lines you cannot fill.',
-        "#",
-        *(f"# {line}".rstrip() for line in sketch.strip("\n").splitlines()),
-        "",
-        f'kind = "{kind}"',
-        'name = ""',
-        'description = ""',
-        'source = "" # who measured it, when, how',
-        "",
-        "[parameters]",
-        *_parameter_lines(cls.descriptions()),
-    ]
-    return "\n".join(lines) + "\n"
-
-
-def _parameter_lines(descriptions: dict[str, Parameter]) -> Iterator[str]:
-    for number, (group, members) in enumerate(itertools.groupby(descriptions.items(), key=lambda item: item[1].group)):
-        if number:
-            yield ""
-        yield f"# {group}"
-        for name, p in members:
-            example = "9.81" if name == "gravity" else "?"
-            text = f'"{example} {unit_text(p.unit)}"' if p.unit else f'"{example}"'
-            note = "optional, " if p.optional else ""
-            if name == "forward_lean_angle":
-                yield f'# On several bicycles, by name: {name} = {{ stratos = "63.9 deg", browser = "82.9 deg" }}'
-            yield f"{name} = {text} # {note}{p.symbol}: {p.meaning}; {ALLOWED[p.allowed][0]}"
-
-
-def _raw_lines() -> Iterator[str]:
-    yield "# Raw measurements of a bicycle. Fill in: name = value, or name = value+/-standard deviation."
-    yield "# `singletrack measure FILE` makes a bicycle of them. Units are as said here and cannot be changed."
-    yield "#"
-    yield from (f"# {line}".rstrip() for line in _RAW_SKETCH.strip("\n").splitlines())
-    yield ""
-    for name, p in RAW.items():
-        if name[-1] in "456789":
-            continue
-        yield f"{'' if p.needed else '# '}{name} = # {p.unit + ', ' if p.unit else ''}{p.meaning}"
+    known = templates()
+    if kind not in known:
+        raise InputError(unknown_name("kind", kind, known))
+    return known[kind]()

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from singletrack.arrays import Array, as_arrays, stack, vector
+from singletrack.arrays import Array, as_arrays, namespace, stack, vector
 from singletrack.linear.pencil import mass_units
 
 if TYPE_CHECKING:
@@ -90,7 +90,7 @@ def characteristic_polynomial(model: LinearModel) -> CharacteristicPolynomial:
     >>> abs(polynomial.at([0.0])[0, 1::2]).tolist()
     [0.0, 0.0]
     """
-    xp, (g,) = as_arrays(model.gravity)
+    _, (g,) = as_arrays(model.gravity)
     entries = stack(model.matrices, -3)  # (..., 4, 2, 2)
     if isinstance(entries, np.ndarray) and entries.dtype.kind == "f":
         # No mass is too large or too small: a power of two for each coordinate, which changes no bit of the roots.
@@ -99,7 +99,7 @@ def characteristic_polynomial(model: LinearModel) -> CharacteristicPolynomial:
     e11, e12, e21, e22 = (entries[..., i, j] for i in (0, 1) for j in (0, 1))
     # For matrices A and B of the four, [A, B] = A11 B22 - A12 B21: det A = [A, A] and D(A, B) = [A, B] + [B, A].
     products = e11[..., :, None] * e22[..., None, :] - e12[..., :, None] * e21[..., None, :]
-    mixed = products + xp.matrix_transpose(products)
+    mixed = products + namespace(products).matrix_transpose(products)
     M, C1, K0, K2 = range(4)
     return CharacteristicPolynomial(
         products[..., M, M, None],

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from singletrack.arrays import Array, as_arrays, vector
+from singletrack.arrays import Array, as_arrays, cross, unit_vector, vector
 
 __all__ = ["cylinder_inertia", "gyration_inertia", "prism_inertia", "sphere_inertia"]
 
@@ -71,7 +71,7 @@ def gyration_inertia(mass: Array, along: Array, sideways: Array, across: Array, 
     mass, along, sideways, across : array, shape (...)
         In kg; radii in m about ``axis``, about y, about the normal to both.
     axis : array, shape (..., 3)
-        Unit vector in the x-z plane.
+        Unit vector; where it is not in the x-z plane, y stands for the direction nearest to y that is normal to it.
 
     Examples
     --------
@@ -83,10 +83,7 @@ def gyration_inertia(mass: Array, along: Array, sideways: Array, across: Array, 
 
 
 def _about_three_axes(axis: Array, along: Array, sideways: Array, across: Array) -> Array:
-    """Return the tensor with given moments about a unit axis in the x-z plane, y, and the normal to both."""
-    normal = vector(-axis[..., 2], 0.0 * axis[..., 1], axis[..., 0])
-    return (
-        _about_axis(axis, along, 0.0)
-        + _about_axis(normal, across, 0.0)
-        + _about_axis(vector(0.0, 1.0, 0.0), sideways, 0.0)
-    )
+    """Return the tensor with given moments about a unit axis, y (or nearest to it), and the normal to both."""
+    normal = unit_vector(vector(-axis[..., 2], 0.0 * axis[..., 1], axis[..., 0]))
+    aside = cross(normal, axis)
+    return _about_axis(axis, along, 0.0) + _about_axis(normal, across, 0.0) + _about_axis(aside, sideways, 0.0)

@@ -107,7 +107,7 @@ class LinearModel:
     def shape(self) -> tuple[int, ...]:
         """Shape (...) of the batch of designs."""
         stacked = (np.shape(getattr(self, name))[:-2] for name in (*_SQUARE, "B"))
-        return np.broadcast_shapes(np.shape(self.gravity), *stacked)
+        return np.broadcast_shapes(np.shape(self.gravity), *stacked, *(np.shape(fault.bad) for fault in self.faults))
 
     @property
     def valid(self) -> np.ndarray:

@@ -34,6 +34,7 @@ from singletrack.multibody.engine.elements import (
 )
 from singletrack.multibody.engine.equilibrium import SteadyMotion, steady_motion
 from singletrack.multibody.engine.inputs import Constant, Function, Pulse, Sampled
+from singletrack.multibody.engine.limits import Limit, Reach
 from singletrack.multibody.engine.linearise import Linearisation, linearise, speed_polynomials
 from singletrack.multibody.engine.model import Model, State, build
 from singletrack.multibody.engine.simulate import Event, simulate
@@ -49,9 +50,11 @@ __all__ = [
     "Force",
     "Function",
     "Joint",
+    "Limit",
     "Linearisation",
     "Model",
     "Pulse",
+    "Reach",
     "Response",
     "Sampled",
     "Sensor",

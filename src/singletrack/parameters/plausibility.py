@@ -15,11 +15,12 @@ if TYPE_CHECKING:
     from singletrack.parameters.bicycle import Bicycle
     from singletrack.parameters.record import Record
 
-__all__ = ["Oddity", "oddities"]
+__all__ = ["USUAL", "Oddity", "oddities"]
 
-# Ranges that hold every bicycle and rider we know of, from children's to cargo and tandem.
-_USUAL = {
+#: Ranges, SI, that hold every bicycle and rider we know of, from children's to cargo and tandem.
+USUAL = {
     "wheel_base": (0.5, 3.0),
+    "trail": (0.0, 0.3),
     "rear_wheel_radius": (0.1, 0.5),
     "front_wheel_radius": (0.1, 0.5),
     "rear_wheel_mass": (0.3, 30.0),
@@ -41,24 +42,49 @@ _USUAL = {
     "head_circumference": (0.4, 0.75),
     "chest_circumference": (0.5, 1.8),
     "shoulder_to_shoulder": (0.2, 0.7),
+    "head_mass_fraction": (0.03, 0.25),
+    "torso_mass_fraction": (0.3, 0.65),
+    "upper_arm_mass_fraction": (0.01, 0.06),
+    "lower_arm_mass_fraction": (0.005, 0.05),
+    "upper_leg_mass_fraction": (0.05, 0.2),
+    "lower_leg_mass_fraction": (0.03, 0.12),
 }
 _SMALLEST_ANGLE = math.radians(2.0)
+_LARGEST_TILT = math.radians(45.0)
 _FRACTION_TOLERANCE = 0.005
+#: Of slips in the unit: the factor, and what to ask.
+_SLIPS = {
+    "m": ((1e-3, "millimetres written as metres?"), (1e-2, "centimetres written as metres?")),
+    "kg": ((1e-3, "grams written as kilograms?"),),
+}
 
 
 @dataclass(frozen=True)
 class Oddity:
-    """Something odd: the parameter, and one sentence on what was found and what it might be."""
+    """Something odd.
+
+    Attributes
+    ----------
+    parameter : str
+    text : str
+        One sentence on what was found and what it might be.
+    found : float
+        In SI units.
+    expected : str
+        What is usual, in words.
+    """
 
     parameter: str
     text: str
+    found: float
+    expected: str
 
     def __str__(self) -> str:
         return self.text
 
 
 def oddities(record: Record, rider: Rider | None = None) -> tuple[Oddity, ...]:
-    """Return what looks odd about a bicycle or a rider, or about a rider on a bicycle.
+    """Return what looks odd about a bicycle or a rider, or about a bicycle and its rider.
 
     Parameters
     ----------
@@ -66,6 +92,11 @@ def oddities(record: Record, rider: Rider | None = None) -> tuple[Oddity, ...]:
         A single design.
     rider : Rider, optional
         Seated on the bicycle.
+
+    Raises
+    ------
+    InputError
+        If it is a batch.
 
     Examples
     --------
@@ -89,68 +120,75 @@ def oddities(record: Record, rider: Rider | None = None) -> tuple[Oddity, ...]:
 
 
 def _ranges(record: Record) -> Iterator[Oddity]:
-    values = record.values()
-    for name, (low, high) in _USUAL.items():
-        if name in values and not low <= float(values[name]) <= high:
-            unit = record.descriptions()[name].unit.replace("**", "^")
-            text = f"{name} = {values[name]:g} {unit} is outside what is usual, {low:g} to {high:g} {unit}"
-            ratio = float(values[name]) / high
-            hint = "; millimetres written as metres?" if unit == "m" and 100 < ratio < 10_000 else ""
-            yield Oddity(name, text + hint)
-    if "trail" in values and values["trail"] < 0:
-        text = f"trail = {values['trail']:g} m is negative: the front wheel touches the ground ahead of the steer axis"
-        yield Oddity("trail", text)
-    elif "trail" in values and values["trail"] > 0.3:
-        yield Oddity("trail", f"trail = {values['trail']:g} m is outside what is usual, 0 to 0.3 m")
+    for name, (low, high) in USUAL.items():
+        value = getattr(record, name, None)
+        if value is None or low <= value <= high or (value == 0 and "wheel" in name):  # a skate has no wheels
+            continue
+        unit = record.descriptions()[name].unit.replace("**", "^")
+        expected = f"{low:g} to {high:g} {unit}".rstrip()
+        found = f"{name} = {value:g} {unit}".rstrip()
+        if name == "trail" and value < 0:
+            text = f"{found} is negative: the front wheel touches the ground ahead of the steer axis"
+        else:
+            slips = [ask for factor, ask in _SLIPS.get(unit, ()) if low <= value * factor <= high and value > high]
+            text = "; ".join([f"{found} is outside what is usual, {expected}", *slips[:1]])
+        yield Oddity(name, text, float(value), expected)
 
 
 def _angles(record: Record) -> Iterator[Oddity]:
-    for name, description in record.descriptions().items():
-        value = getattr(record, name)
-        if description.unit != "rad" or value is None:
+    for name in _ANGLES:
+        value = getattr(record, name, None)
+        if value is None:
             continue
         degrees = math.degrees(value)
         if value < 0:
-            yield Oddity(name, f"{name} = {degrees:g} deg is negative: the steer axis leans forward, top ahead")
+            text = f"{name} = {degrees:g} deg is negative: the steer axis leans forward, top ahead"
+            yield Oddity(name, text, float(value), "0 to 45 deg")
         elif 0 < value < _SMALLEST_ANGLE:
             text = f"{name} = {degrees:g} deg is hardly an angle: {degrees:g} radians ({math.degrees(degrees):.3g} deg)"
-            yield Oddity(name, f"{text} written as degrees?")
-        elif name == "steer_axis_tilt" and degrees > 45:
+            yield Oddity(name, f"{text} written as degrees?", float(value), "more than 2 deg")
+        elif name == "steer_axis_tilt" and value > _LARGEST_TILT:
             text = f"{name} = {degrees:g} deg is more than 45 deg: is it the head angle? The tilt is from the vertical"
-            yield Oddity(name, text)
+            yield Oddity(name, f"{text}: 90 deg - head angle", float(value), "less than 45 deg")
+
+
+_ANGLES = ("steer_axis_tilt", "seat_tube_angle", "forward_lean_angle")
 
 
 def _deviations(record: Record) -> Iterator[Oddity]:
-    values = record.values()
     for name, deviation in record.standard_deviations.items():
-        if name in values and deviation > 0.5 * abs(float(values[name])) > 0:
-            text = f"{name} = {values[name]:g} has a standard deviation of {deviation:g}, more than half of it"
-            yield Oddity(name, text)
+        value = getattr(record, name, None)
+        if value is not None and deviation > 0.5 * abs(float(value)) > 0:
+            text = f"{name} = {value:g} has a standard deviation of {deviation:g}, more than half of it"
+            yield Oddity(name, text, float(deviation), "a standard deviation of less than half the value")
 
 
 def _masses(b: Bicycle) -> Iterator[Oddity]:
     masses = [float(getattr(b, f"{body}_mass")) for body in ("rear_wheel", "rear_frame", "front_frame", "front_wheel")]
     places = [0.0, float(b.rear_frame_x), float(b.front_frame_x), float(b.wheel_base)]
     centre = sum(m * x for m, x in zip(masses, places, strict=True)) / sum(masses)
+    x, between = float(b.rear_frame_x), "a centre of mass between the wheel contacts"
     if centre < 0:
-        text = f"rear_frame_x = {b.rear_frame_x:g} m puts the bicycle's centre of mass {-centre:.3g} m behind the rear"
-        yield Oddity("rear_frame_x", f"{text} contact: it would tip over backwards")
+        text = f"rear_frame_x = {x:g} m puts the bicycle's centre of mass {-centre:.3g} m behind the rear"
+        yield Oddity("rear_frame_x", f"{text} contact: it would tip over backwards", x, between)
     elif b.rear_frame_x < 0:
-        text = f"rear_frame_x = {b.rear_frame_x:g} m: the rear frame's centre of mass is behind the rear contact"
-        yield Oddity("rear_frame_x", text)
+        text = f"rear_frame_x = {x:g} m: the rear frame's centre of mass is behind the rear contact"
+        yield Oddity("rear_frame_x", text, x, between)
     if centre > b.wheel_base:
         text = f"the bicycle's centre of mass is {centre - b.wheel_base:.3g} m ahead of the front contact"
-        yield Oddity("rear_frame_x", f"{text}: it would tip over forwards")
+        yield Oddity("rear_frame_x", f"{text}: it would tip over forwards", x, between)
     for end in ("rear", "front"):
         mass, radius = getattr(b, f"{end}_wheel_mass"), getattr(b, f"{end}_wheel_radius")
-        inertia = getattr(b, f"{end}_wheel_inertia_yy")
+        inertia = float(getattr(b, f"{end}_wheel_inertia_yy"))
         if inertia > mass * radius**2:
             text = f"{end}_wheel_inertia_yy = {inertia:g} kg*m^2 is more than that of all mass at the tread"
-            yield Oddity(f"{end}_wheel_inertia_yy", f"{text}, {mass * radius**2:.3g} kg*m^2")
+            most = f"{mass * radius**2:.3g} kg*m^2"
+            yield Oddity(f"{end}_wheel_inertia_yy", f"{text}, {most}", inertia, f"at most {most}")
 
 
 def _fractions(rider: Rider) -> Iterator[Oddity]:
     total = sum(count * float(getattr(rider, name)) for name, count in MASS_FRACTIONS.items())
     if abs(total - 1) > _FRACTION_TOLERANCE:
         text = f"the mass fractions of all segments sum to {total:.4g}, not to 1: the segments weigh"
-        yield Oddity("head_mass_fraction", f"{text} {total * rider.rider_mass:.4g} kg of {rider.rider_mass:g} kg")
+        text = f"{text} {total * rider.rider_mass:.4g} kg of {rider.rider_mass:g} kg"
+        yield Oddity("head_mass_fraction", text, total, "fractions that sum to 1")

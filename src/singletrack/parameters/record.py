@@ -1,8 +1,4 @@
-"""What a parameter is, and the base of the records that hold them.
-
-The fields of a record describe themselves once (unit, symbol in the paper, meaning, allowed values); validation,
-file reading, templates, tables and schemas all read that description.
-"""
+"""The base of the records that hold parameters: frozen, checked when made, any batch."""
 
 from __future__ import annotations
 
@@ -13,61 +9,15 @@ from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 from singletrack.arrays import Array, is_concrete
 from singletrack.arrays.faults import Fault, refuse_single
-from singletrack.errors import InputError, unknown
+from singletrack.errors import InputError, SingletrackError
+from singletrack.parameters.description import ALLOWED, Parameter, faults_of_value, parameter
+from singletrack.parameters.hints import unknown_parameter
+from singletrack.parameters.values import FrozenDict, as_parameter
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
+    from collections.abc import Iterator
 
 __all__ = ["ALLOWED", "Parameter", "Record", "parameter"]
-
-#: Kinds of allowed values: the words a user reads, and a test on NumPy arrays (finite is tested before).
-ALLOWED: dict[str, tuple[str, Callable[[Any], Any]]] = {
-    "any": ("a finite number", lambda x: x == x),  # noqa: PLR0124  # true for all finite numbers
-    "positive": ("greater than zero", lambda x: x > 0),
-    "not negative": ("zero or more", lambda x: x >= 0),
-    "angle": ("between 0 and 90 deg (a bare number is in radians)", lambda x: (x > 0) & (x < 1.5707963267948966)),
-    "tilt": ("between -90 and 90 deg (a bare number is in radians)", lambda x: abs(x) < 1.5707963267948966),
-    "above ground": ("less than zero (z points down, the ground is at zero)", lambda x: x < 0),
-    "fraction": ("greater than 0 and less than 1", lambda x: (x > 0) & (x < 1)),
-}
-
-
-@dataclass(frozen=True)
-class Parameter:
-    """The description of one parameter.
-
-    Attributes
-    ----------
-    unit : str
-        SI unit as pint reads it, "" for a plain number.
-    symbol : str
-        The paper's symbol.
-    meaning : str
-        What it is, for templates and tables.
-    allowed : str
-        A key of :data:`ALLOWED`.
-    group : str
-        Heading under which it is listed.
-    optional : bool
-        Whether a record can do without it.
-    """
-
-    unit: str
-    symbol: str
-    meaning: str
-    allowed: str
-    group: str
-    optional: bool = False
-
-
-def parameter(
-    unit: str, symbol: str, meaning: str, allowed: str = "positive", *, group: str, optional: bool = False
-) -> Any:
-    """Declare a field of a record as a parameter (arguments as in :class:`Parameter`)."""
-    description = Parameter(unit, symbol, meaning, allowed, group, optional)
-    if optional:
-        return field(default=None, metadata={"parameter": description})
-    return field(metadata={"parameter": description})
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -98,6 +48,8 @@ class Record:
     extras: Mapping[str, float] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
+        _take_texts(self)
+        _take_values(self)
         object.__setattr__(self, "_standing", refuse_single(self.faults(), where=self.name))
 
     @property
@@ -109,11 +61,11 @@ class Record:
     @classmethod
     def descriptions(cls) -> dict[str, Parameter]:
         """Return the description of every parameter by name, in the order of the record."""
-        return {f.name: f.metadata["parameter"] for f in dataclasses.fields(cls) if "parameter" in f.metadata}
+        return dict(_descriptions(cls))
 
     def values(self) -> dict[str, Array]:
         """Return the parameters that are present, by name."""
-        found = {name: getattr(self, name) for name in self.descriptions()}
+        found = {name: getattr(self, name) for name in _descriptions(type(self))}
         return {name: value for name, value in found.items() if value is not None}
 
     def replace(self, **changes: Array) -> Self:
@@ -133,10 +85,12 @@ class Record:
         known = [f.name for f in dataclasses.fields(cls)]
         for name in names:
             if name not in known and name not in also:
-                raise unknown(f"{cls.kind} parameter", name, cls.descriptions())
+                raise unknown_parameter(cls.kind, name, cls.descriptions())
 
     def faults(self) -> tuple[Fault, ...]:
-        """Return what is wrong with the values, one fault per rule, with a mask over the batch."""
+        """Return what is wrong with the values, with a mask over the batch each; sound numbers have no faults."""
+        if self.is_single:
+            return tuple(self._faults())
         import numpy as np
 
         # Numbers near the largest double overflow on the way to being refused.
@@ -144,8 +98,10 @@ class Record:
             return tuple(self._faults())
 
     def _faults(self) -> Iterator[Fault]:
-        for name, description in self.descriptions().items():
-            yield from _faults_of_value(name, getattr(self, name), description)
+        for name, description in _descriptions(type(self)).items():
+            value = getattr(self, name)
+            if type(value) is float or is_concrete(value):
+                yield from faults_of_value(name, value, description)
         yield from self._physical_faults()
 
     def _physical_faults(self) -> Iterator[Fault]:
@@ -153,34 +109,75 @@ class Record:
         yield from ()
 
     @property
+    def is_single(self) -> bool:
+        """Whether every parameter is one plain number: a single design, and not one that JAX looks at."""
+        single: bool = self.__dict__["_single"]
+        return single
+
+    @property
     def shape(self) -> tuple[int, ...]:
         """Shape of the batch of designs; () for a single one."""
-        import numpy as np
+        shape: tuple[int, ...] = self.__dict__["_shape"]
+        return shape
 
-        return np.broadcast_shapes(*(np.shape(value) for value in self.values().values()))
+
+#: The descriptions by class, as reading them off the fields takes longer than checking the values.
+_DESCRIPTIONS: dict[type[Record], dict[str, Parameter]] = {}
 
 
-def _faults_of_value(name: str, value: Array, description: Parameter) -> Iterator[Fault]:
-    if value is None:
-        if not description.optional:
-            yield Fault(bad=True, text=f"{name} is missing", error=InputError, parameters=(name,))
-        return
-    if not is_concrete(value):
-        return
+def _descriptions(cls: type[Record]) -> dict[str, Parameter]:
+    if cls not in _DESCRIPTIONS:
+        fields = (f for f in dataclasses.fields(cls) if "parameter" in f.metadata)
+        _DESCRIPTIONS[cls] = {f.name: f.metadata["parameter"] for f in fields}
+    return _DESCRIPTIONS[cls]
+
+
+def _take_texts(record: Record) -> None:
+    """Refuse names that are no text; take copies of the mappings, which cannot be changed."""
+    own = record.__dict__
+    for f in dataclasses.fields(record):
+        value = own[f.name]
+        if f.default == "" and not isinstance(value, str):
+            reason = f"{f.name} = {value!r:.80}, must be text"
+            raise InputError(reason, parameters=(f.name,), found=value, allowed="text")
+        if f.default_factory is not dataclasses.MISSING:
+            if not isinstance(value, Mapping):
+                reason = f"{f.name} = {value!r:.80}, must be a dictionary"
+                raise InputError(reason, parameters=(f.name,), found=value, allowed="a dictionary")
+            own[f.name] = FrozenDict(value)
+
+
+def _take_values(record: Record) -> None:
+    """Put parameters into the record as doubles and note the batch's shape; raise what is wrong with their types."""
+    own = record.__dict__
+    wrong: list[SingletrackError] = []
+    arrays: dict[str, tuple[int, ...]] = {}
+    single = True
+    for name in _descriptions(type(record)):
+        value = own[name]
+        if type(value) is float or value is None:
+            continue
+        try:
+            own[name] = value = as_parameter(value)
+        except InputError as error:
+            wrong.append(error.of(name))
+            continue
+        if type(value) is not float:
+            single = False
+            arrays[name] = getattr(value, "shape", ())
+    if wrong:
+        raise SingletrackError.of_all(wrong).at(record.name)
+    own["_single"], own["_shape"] = single, _common_shape(record.name, arrays) if arrays else ()
+
+
+def _common_shape(name: str, shapes: dict[str, tuple[int, ...]]) -> tuple[int, ...]:
     import numpy as np
 
-    array = np.asarray(value)
-    if array.dtype.kind not in "iufc":
-        found = repr(value)[:80].replace("{", "{{").replace("}", "}}")
-        text = f"{name} = {found} is not a number"
-        yield Fault(bad=True, text=text, error=InputError, parameters=(name,), allowed="a number")
-        return
-    unit = f" {description.unit}" if description.unit else ""
-    words, test = ALLOWED[description.allowed]
-    finite = np.isfinite(array)
-    bad = ~finite | ~np.where(finite, test(np.where(finite, array.real, 1.0)), False)  # noqa: FBT003
-    found = f"{name} = {{found:.6g}}{unit}"
-    if description.allowed in {"angle", "tilt"}:
-        found += " ({degrees:.6g} deg)"
-    values = {"found": array, "degrees": np.degrees(array.real)}
-    yield Fault(bad, f"{found}, must be {words}", values, InputError, (name,), words)
+    try:
+        return np.broadcast_shapes(*shapes.values())
+    except ValueError:
+        several = {parameter: shape for parameter, shape in shapes.items() if shape}
+        reason = f"{', '.join(f'{p} has shape {shape}' for p, shape in several.items())}, must broadcast to one shape"
+        raise InputError(
+            reason, parameters=several, found=several, allowed="shapes that broadcast", place=name
+        ) from None

@@ -4,14 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from math import pi
+from math import inf, pi
 from typing import TYPE_CHECKING, ClassVar
 
-from singletrack.arrays import Array, is_concrete
+from singletrack.arrays import Array
 from singletrack.arrays.faults import Fault
 from singletrack.errors import InputError
 from singletrack.parameters.record import Record, parameter
 from singletrack.parameters.shapes import SegmentShape
+from singletrack.parameters.values import real_numbers
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -52,6 +53,9 @@ class Rider(Record):
     forward_lean_angle: Array = parameter(
         "rad", "λfl", "torso from the horizontal, on this bicycle", "angle", group=_BODY, optional=True
     )
+    elbow_drop_angle: Array = parameter(
+        "rad", "λed", "elbows turned out less far than hanging down (90 deg)", "angle", group=_BODY, optional=True
+    )
     head_circumference: Array = parameter("m", "ch", "around the head", group=_BODY)
     hip_joint_to_hip_joint: Array = parameter("m", "lhh", "between the hip joints", group=_BODY)
     lower_arm_circumference: Array = parameter("m", "cla", "around the lower arm", group=_BODY)
@@ -60,13 +64,19 @@ class Rider(Record):
     lower_leg_length: Array = parameter("m", "lll", "knee to pedal", group=_BODY)
     shoulder_to_shoulder: Array = parameter("m", "lss", "between the shoulder joints", group=_BODY)
     torso_length: Array = parameter("m", "lto", "hip joints to shoulder joints", group=_BODY)
+    torso_thickness: Array = parameter(
+        "m", "tto", "front to back; else from the chest's circumference", group=_BODY, optional=True
+    )
+    torso_width: Array = parameter(
+        "m", "wto", "side to side; else between the insides of the upper arms", group=_BODY, optional=True
+    )
     upper_arm_circumference: Array = parameter("m", "cua", "around the upper arm", group=_BODY)
     upper_arm_length: Array = parameter("m", "lua", "shoulder to elbow", group=_BODY)
     upper_leg_circumference: Array = parameter("m", "cul", "around the upper leg", group=_BODY)
     upper_leg_length: Array = parameter("m", "lul", "hip to knee", group=_BODY)
 
     rider_mass: Array = parameter("kg", "mBr", "whole rider", group=_MASS)
-    head_mass_fraction: Array = parameter("", "mh/mBr", "head", "fraction", group=_MASS)
+    head_mass_fraction: Array = parameter("", "mh/mBr", "head", "fraction", group=_MASS, most=0.5)
     lower_arm_mass_fraction: Array = parameter("", "mla/mBr", "one lower arm", "fraction", group=_MASS)
     lower_leg_mass_fraction: Array = parameter("", "mll/mBr", "one lower leg", "fraction", group=_MASS)
     torso_mass_fraction: Array = parameter("", "mto/mBr", "torso", "fraction", group=_MASS)
@@ -103,27 +113,37 @@ class Rider(Record):
         return self.replace(forward_lean_angle=angle, standard_deviations=deviations)
 
     @property
-    def torso_width(self) -> Array:
-        """Width of the torso, along y, in m: between the insides of the upper arms."""
-        return self.shoulder_to_shoulder - self.upper_arm_circumference / pi
+    def torso_section(self) -> tuple[Array, Array]:
+        """Width (along y) and thickness of the torso in m.
 
-    @property
-    def torso_thickness(self) -> Array:
-        """Thickness of the torso in m: a stadium of this thickness and the torso's width has the chest's girth."""
-        return (self.chest_circumference - 2 * self.torso_width) / (pi - 2)
+        As given; else the width is that between the insides of the upper arms, and a stadium of that width and the
+        thickness has the chest's circumference (a given width leaves the thickness as derived).
+        """
+        width = self.shoulder_to_shoulder - self.upper_arm_circumference / pi
+        thickness = (self.chest_circumference - 2 * width) / (pi - 2)
+        return (
+            width if self.torso_width is None else self.torso_width,
+            thickness if self.torso_thickness is None else self.torso_thickness,
+        )
 
     def _physical_faults(self) -> Iterator[Fault]:
-        import numpy as np
-
-        inputs = tuple(getattr(self, name) for name in _TORSO)
-        if not all(is_concrete(value) and np.asarray(value).dtype.kind in "iufc" for value in inputs):
+        inputs = real_numbers(*(getattr(self, name) for name in _TORSO))
+        if inputs is None:
             return
-        width, thickness = np.real(self.torso_width), np.real(self.torso_thickness)
-        finite = np.isfinite(width) & np.isfinite(thickness)
-        found = {"width": width, "twice": 2 * width}
-        found |= dict(zip(_TORSO, (np.asarray(value) for value in inputs), strict=True))
+        if self.torso_width is not None and self.torso_thickness is not None:
+            return
+        shoulders, arm, chest = inputs
+        # Only operators from here, which work on floats and arrays alike; comparisons with NaN are false.
+        width = shoulders - arm / pi
+        usable = (width > -inf) & (width < inf) & (chest > -inf) & (chest < inf)
+        narrow, tight = usable & (width <= 0), usable & (width > 0) & (chest <= 2 * width)
+        if self.torso_thickness is not None:
+            tight &= False
+        if narrow is False and tight is False:
+            return
+        found = {"width": width, "twice": 2 * width} | dict(zip(_TORSO, inputs, strict=True))
         yield Fault(
-            finite & (width <= 0),
+            narrow,
             "shoulder_to_shoulder = {shoulder_to_shoulder:.6g} m leaves no torso between upper arms of "
             "upper_arm_circumference = {upper_arm_circumference:.6g} m, must be more than upper_arm_circumference / pi",
             found,
@@ -132,7 +152,7 @@ class Rider(Record):
             "more than upper_arm_circumference / pi",
         )
         yield Fault(
-            finite & (width > 0) & (thickness <= 0),
+            tight,
             "chest_circumference = {chest_circumference:.6g} m does not go around a torso {width:.6g} m wide "
             "(shoulder_to_shoulder - upper_arm_circumference / pi), must be more than {twice:.6g} m",
             found,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from singletrack.parameters.bicycle import FRAME_GEOMETRY, Bicycle
+from singletrack.parameters.bicycle import Bicycle
 
 __all__ = ["GEOMETRY_SYMBOLS", "MODEL_SYMBOLS", "NAMES", "SYMBOLS"]
 
@@ -18,7 +18,7 @@ SYMBOLS = {name: _ascii(p.symbol) for name, p in Bicycle.descriptions().items()}
 NAMES = {symbol: name for name, symbol in SYMBOLS.items()}
 
 #: Symbols of the 25 parameters of the linear model (and gravity), in the order of the record.
-MODEL_SYMBOLS = tuple(symbol for name, symbol in SYMBOLS.items() if name not in FRAME_GEOMETRY)
+MODEL_SYMBOLS = tuple(symbol for name, symbol in SYMBOLS.items() if not Bicycle.descriptions()[name].optional)
 
 #: Symbols of the frame geometry that seats a rider.
-GEOMETRY_SYMBOLS = tuple(symbol for name, symbol in SYMBOLS.items() if name in FRAME_GEOMETRY)
+GEOMETRY_SYMBOLS = tuple(symbol for name, symbol in SYMBOLS.items() if Bicycle.descriptions()[name].optional)

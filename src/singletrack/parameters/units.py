@@ -36,7 +36,8 @@ percent = 0.01 = % = pct
 
 _NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?|[+-]?(?:nan|inf|infinity)"
 _QUANTITY = re.compile(
-    rf"\s*(?P<value>{_NUMBER})\s*(?:(?:\+/-|±|\+-)\s*(?P<deviation>{_NUMBER})\s*)?(?P<unit>[^\d\s+-].*)?", re.IGNORECASE
+    rf"\s*(?P<value>{_NUMBER})\s*(?:(?:\+/-|±|\+-)\s*(?P<deviation>{_NUMBER})\s*)?(?P<unit>[^\d\s+-].*)?",
+    re.IGNORECASE | re.ASCII,  # digits and letters of other scripts are no numbers
 )
 #: Names with powers up to 3, joined by signs. Stricter than pint, which would evaluate m**9**9**9.
 _ATOM = r"(?:1(?=\s*/)|[A-Za-z°%]+(?:(?:\^|\*\*)?-?[1-3]|[²³])?)"
@@ -136,6 +137,8 @@ COMMON_FACTORS = {
     ("kg*m^2", "kg*m**2"): 1.0,
     ("N/kg", "m/s**2"): 1.0,
     ("m/s^2", "m/s**2"): 1.0,
+    ("m/s", "m/s"): 1.0,
+    ("km/h", "m/s"): 1 / 3.6,
 }
 
 

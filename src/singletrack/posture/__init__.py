@@ -1,19 +1,31 @@
 """Which segments of the rider move with the steer, and how."""
 
-from singletrack.posture.motion import SlavedBodies, slaved_bodies, steered_skeleton
-from singletrack.posture.options import ARMS, POSTURES, SHOULDERS, Options
-from singletrack.posture.postures import Joint, Loop, Posture, seat
+from singletrack.posture.bodies import SlavedBodies, slaved_bodies
+from singletrack.posture.mechanism import HANDLEBAR, Mechanism
+from singletrack.posture.options import ARMS, POSTURES, SHOULDERS, STEER, Options, input_name
+from singletrack.posture.seated import Joint, Loop, Posture, seat, steer_axis
+from singletrack.posture.shipped import TORSO_LEAN, load_posture, mechanism_of, named_posture
+from singletrack.posture.steered import steered_skeleton
 
 __all__ = [
     "ARMS",
+    "HANDLEBAR",
     "POSTURES",
     "SHOULDERS",
+    "STEER",
+    "TORSO_LEAN",
     "Joint",
     "Loop",
+    "Mechanism",
     "Options",
     "Posture",
     "SlavedBodies",
+    "input_name",
+    "load_posture",
+    "mechanism_of",
+    "named_posture",
     "seat",
     "slaved_bodies",
+    "steer_axis",
     "steered_skeleton",
 ]

@@ -10,12 +10,25 @@ import numpy as np
 
 from singletrack.arrays import Array, is_concrete
 from singletrack.errors import InputError, unknown_name
+from singletrack.library import shipped
+from singletrack.posture.mechanism import Mechanism
 
-__all__ = ["ARMS", "POSTURES", "SHOULDERS", "Options"]
+__all__ = ["ARMS", "POSTURES", "SHOULDERS", "STEER", "Options", "input_name"]
 
 POSTURES = ("rigid", "leaned", "upright")
 SHOULDERS = ("abduction", "axial")
 ARMS = ("straight", "bent")
+#: What springs and dampers may act on beside joints and hands.
+STEER = "steer"
+
+
+def input_name(joint: str) -> str:
+    """Return the name of the torque (or force) that works on a free joint.
+
+    >>> input_name("torso lean"), input_name("right elbow")
+    ('torso torque', 'right elbow torque')
+    """
+    return "torso torque" if joint == "torso lean" else f"{joint} torque"
 
 
 @dataclass(frozen=True)
@@ -24,8 +37,8 @@ class Options:
 
     Attributes
     ----------
-    posture : str
-        A shipped posture's name.
+    posture : str or Mechanism
+        A shipped posture's name, or a mechanism.
     shoulder : {"abduction", "axial"}, optional
         Second axis of the shoulder joint; by default as the posture has it.
     arms : {"straight", "bent"}, optional
@@ -46,7 +59,7 @@ class Options:
     ('leaned', False)
     """
 
-    posture: str = "rigid"
+    posture: str | Mechanism = "rigid"
     shoulder: str | None = None
     arms: str | None = None
     torso_lean: bool = False
@@ -54,11 +67,9 @@ class Options:
     dampers: Mapping[str, Array] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        for what, found, known in (
-            ("posture", self.posture, POSTURES),
-            ("shoulder", self.shoulder, SHOULDERS),
-            ("arms", self.arms, ARMS),
-        ):
+        if isinstance(self.posture, str) and self.posture not in POSTURES and self.posture not in shipped("posture"):
+            raise InputError(unknown_name("posture", self.posture, POSTURES))
+        for what, found, known in (("shoulder", self.shoulder, SHOULDERS), ("arms", self.arms, ARMS)):
             if found is not None and found not in known:
                 raise InputError(unknown_name(what, str(found), known))
         if self.arms is not None and self.posture != "leaned":
@@ -72,15 +83,35 @@ class Options:
         object.__setattr__(self, "dampers", dict(self.dampers))
 
     @classmethod
-    def of(cls, options: Options | str) -> Self:
-        """Return options as they are, or those of a posture's name alone."""
+    def of(cls, options: Options | Mechanism | str) -> Self:
+        """Return options as they are, or those of a posture alone."""
         return options if isinstance(options, cls) else cls(options)  # type: ignore[arg-type]
+
+    @property
+    def name(self) -> str:
+        """The posture's name."""
+        return self.posture if isinstance(self.posture, str) else self.posture.name
+
+    @property
+    def title(self) -> str:
+        """The posture's name with what else is asked for, in words.
+
+        >>> Options("leaned", arms="bent", torso_lean=True, springs={"torso lean": 100.0}).title
+        'leaned, arms bent, torso lean, spring at torso lean'
+        """
+        parts = [self.name]
+        parts += [f"shoulder {self.shoulder}"] if self.shoulder else []
+        parts += [f"arms {self.arms}"] if self.arms else []
+        parts += ["torso lean"] if self.torso_lean else []
+        parts += [f"spring at {joint}" for joint in self.springs] + [f"damper at {joint}" for joint in self.dampers]
+        return ", ".join(parts)
 
     def require_rider(self) -> None:
         """Raise InputError if a rider is needed: there is none."""
         for what, wanted in (
-            (f"posture {self.posture}", self.posture != "rigid"),
+            (f"posture {self.name}", self.posture != "rigid"),
             ("torso lean", self.torso_lean),
+            *((f"a spring or damper at {name}", True) for name in (*self.springs, *self.dampers) if name != STEER),
         ):
             if wanted:
                 raise InputError(f"{what} needs a rider; allowed without one: rigid")

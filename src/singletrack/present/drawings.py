@@ -32,6 +32,7 @@ _LIMBS = {
     "left_upper_arm": (22, 24),
     "left_lower_arm": (24, 20),
 }
+_STRAIGHT_ARMS = {"right_arm": (21, 19), "left_arm": (22, 20)}
 #: Steer angles in degrees to choose from for the second outline: the largest at which second order is good enough.
 _STEER_ANGLES = (20, 15, 10, 5, 2)
 _LENGTH_ERROR = 0.01  # m, of the lower arms
@@ -78,7 +79,8 @@ def _steered(bicycle: Bicycle, posture: Posture) -> tuple[int, np.ndarray]:
         moved = _numbered(steered_skeleton(posture, bicycle, np.asarray(np.radians(angle))))
         change = [
             np.linalg.norm(moved[end] - moved[start]) - np.linalg.norm(straight[end] - straight[start])
-            for start, end in _LIMBS.values()
+            for name, (start, end) in (_LIMBS | _STRAIGHT_ARMS).items()
+            if name in posture.segments
         ]
         if np.abs(change).max() < _LENGTH_ERROR:
             break
@@ -125,7 +127,9 @@ def _draw_rider(
     from matplotlib.patches import Circle
 
     where = list(plane)
-    for name, (start, end) in _LIMBS.items():
+    for name, (start, end) in (_LIMBS | _STRAIGHT_ARMS).items():
+        if name not in posture.segments:
+            continue
         radius = float(posture.segments[name].radius)
         axes.add_patch(_capsule(points[start, where], points[end, where], radius, colour, alpha))
     if plane == (0, 2):

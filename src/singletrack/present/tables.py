@@ -6,15 +6,15 @@ import csv
 import io
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
 from rich.console import Group
 from rich.table import Table
 
 from singletrack.present.terminal import Words
+from singletrack.present.words import critical_speed_lines
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
-
-    import numpy as np
+    from collections.abc import Iterable, Mapping, Sequence
 
     from singletrack.linear import CriticalSpeeds, Modes
     from singletrack.model import LinearModel
@@ -28,8 +28,15 @@ __all__ = [
     "write_csv",
 ]
 
-_UNITS = {"M": "kg m²", "C1": "kg m", "K0": "kg m", "K2": "kg"}
-_WORDS = {"M": "mass", "C1": "damping-like, times v", "K0": "stiffness, times g", "K2": "stiffness, times v²"}
+_UNITS = {"M": "kg m²", "C0": "N m s", "C1": "kg m", "S0": "N m", "K0": "kg m", "K2": "kg"}
+_WORDS = {
+    "M": "mass",
+    "C0": "dampers",
+    "C1": "damping-like, times v",
+    "S0": "springs",
+    "K0": "stiffness, times g",
+    "K2": "stiffness, times v²",
+}
 
 
 def write_csv(header: Iterable[str], rows: Iterable[Iterable[Any]]) -> str:
@@ -45,25 +52,40 @@ def write_csv(header: Iterable[str], rows: Iterable[Iterable[Any]]) -> str:
     return text.getvalue()
 
 
-def coefficients_table(model: LinearModel, title: str) -> Group:
-    """Return M, C1, K0 and K2 of a single design for reading."""
+def coefficients_table(model: LinearModel, title: str, deviations: Mapping[str, np.ndarray] | None = None) -> Group:
+    """Return the matrices of a single design for reading.
+
+    Parameters
+    ----------
+    model : LinearModel
+        With n coordinates.
+    title : str
+    deviations : mapping of str to array, shape (n, n), optional
+        Standard deviations of the entries, by matrix.
+    """
     table = _table(title)
-    note = f"M q'' + v C1 q' + (g K0 + v² K2) q = f, with q = (lean, steer), g = {float(model.gravity):g} m/s²"
-    for heading in ("", "equation", "lean", "steer", "unit"):
-        table.add_column(heading, justify="right" if heading in ("lean", "steer") else "left")
-    for name, unit in _UNITS.items():
-        matrix = getattr(model, name)
-        table.add_row(f"{name} {_WORDS[name]}", "lean", _number(matrix[0, 0]), _number(matrix[0, 1]), unit)
-        table.add_row("", "steer", _number(matrix[1, 0]), _number(matrix[1, 1]), unit, end_section=True)
+    for heading in ("", "equation", *model.coordinates, "unit"):
+        table.add_column(heading, justify="right" if heading in model.coordinates else "left")
+    sprung = () if model.is_undamped else ("C0", "S0")
+    for name in (name for name in _WORDS if name not in {"C0", "S0"} or name in sprung):
+        entries = np.asarray(getattr(model, name), dtype=float)
+        spread = (deviations or {}).get(name)
+        for i, coordinate in enumerate(model.coordinates):
+            cells = [_entry(entries, spread, i, j) for j in range(model.freedoms)]
+            word = f"{name} {_WORDS[name]}" if i == 0 else ""
+            table.add_row(word, coordinate, *cells, _UNITS[name], end_section=i == model.freedoms - 1)
+    damping, stiffness = ("(C0 + v C1)", "(S0 + g K0 + v² K2)") if sprung else ("v C1", "(g K0 + v² K2)")
+    coordinates = ", ".join(model.coordinates)
+    note = f"M q'' + {damping} q' + {stiffness} q = f, with q = ({coordinates}), g = {float(model.gravity):g} m/s²"
     return Group(table, note)
+
+
+def _entry(entries: np.ndarray, spread: np.ndarray | None, i: int, j: int) -> str:
+    return f"{entries[i, j] + 0.0:.6f}" + ("" if spread is None else f" ± {spread[i, j]:.2g}")
 
 
 def _table(title: str) -> Table:
     return Table(title=title, title_justify="left", title_style="bold")
-
-
-def _number(value: float) -> str:
-    return f"{float(value) + 0.0:.6f}"
 
 
 def format_root(first: complex, second: complex | None = None) -> str:
@@ -109,22 +131,22 @@ def eigenvalues_csv(modes: Modes) -> str:
     return write_csv(header, rows)
 
 
-def critical_speeds_text(speeds: CriticalSpeeds) -> str:
+def critical_speeds_text(critical: CriticalSpeeds, deviations: Mapping[str, Sequence[float]] | None = None) -> str:
     """Return critical speeds and stable ranges of a single design in words.
 
+    Parameters
+    ----------
+    critical : CriticalSpeeds
+    deviations : mapping of "weave", "capsize" to sequences of float, optional
+        Standard deviations of the speeds in m/s.
+
+    Examples
+    --------
     >>> from singletrack import coefficients, load_bicycle
     >>> print(critical_speeds_text(coefficients(load_bicycle("benchmark")).critical_speeds()))
     weave speed     4.292 m/s
     capsize speed   6.024 m/s
     stable          4.292 to 6.024 m/s
     """
-    ranges = [
-        f"{low:.3f} to {high:.3f} m/s" if high != float("inf") else f"above {low:.3f} m/s"
-        for low, high in speeds.stable_ranges
-    ]
-    lines = {
-        "weave speed": ", ".join(f"{speed:.3f} m/s" for speed in speeds.weave) or "never",
-        "capsize speed": ", ".join(f"{speed:.3f} m/s" for speed in speeds.capsize) or "never",
-        "stable": ", ".join(ranges) or "never",
-    }
+    lines = critical_speed_lines(critical, deviations)
     return "\n".join(f"{name:<16}{value}" for name, value in lines.items())

@@ -6,15 +6,19 @@ import dataclasses
 from typing import TYPE_CHECKING, Self
 
 from singletrack import closed_form
+from singletrack.body.oddities import warn_of_oddities
 from singletrack.linear import CriticalSpeeds, Modes, StateSpace, critical_speeds, eigenvalues, modes, state_space
 from singletrack.model import LinearModel
-from singletrack.posture import Options
+from singletrack.posture import Options, named_posture
+from singletrack.public.arguments import require_posture, require_records
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
+    from pathlib import Path
 
     from singletrack.arrays import Array
     from singletrack.parameters import Bicycle, Rider
+    from singletrack.posture import Mechanism
 
 __all__ = ["CoefficientMatrices", "coefficients"]
 
@@ -66,7 +70,7 @@ class CoefficientMatrices(LinearModel):
 def coefficients(
     bicycle: Bicycle,
     rider: Rider | None = None,
-    posture: str = "rigid",
+    posture: str | Path | Mechanism = "rigid",
     shoulder: str | None = None,
     *,
     arms: str | None = None,
@@ -84,8 +88,9 @@ def coefficients(
     bicycle : Bicycle
     rider : Rider, optional
         Without one, the bicycle as measured.
-    posture : {"rigid", "leaned", "upright"}
-        ``rigid``: hands free; ``leaned``: stretched arms, twisting torso; ``upright``: flexed arms, still torso.
+    posture : str, path or Mechanism
+        ``rigid``: hands free; ``leaned``: stretched arms, twisting torso; ``upright``: flexed arms, still torso;
+        another shipped posture, a mechanism file, or a mechanism.
     shoulder : {"abduction", "axial"}, optional
         Second axis of the shoulder joint; by default abduction for ``leaned``, axial for ``upright``.
     arms : {"straight", "bent"}, optional
@@ -108,6 +113,11 @@ def coefficients(
     PostureError
         If arms or legs do not reach, or the arms cannot follow the steer.
 
+    Warns
+    -----
+    OddityWarning
+        Of what looks odd about a single bicycle, its rider or the rider's reach, once for each.
+
     Examples
     --------
     >>> from singletrack import coefficients, load_bicycle, load_rider
@@ -115,5 +125,8 @@ def coefficients(
     >>> round(float(model.M[1, 1]), 4), round(float(model.gravity * model.K0[1, 1]), 4)
     (0.4614, 2.3268)
     """
-    options = Options(posture, shoulder, arms, torso_lean, springs or {}, dampers or {})
+    require_records(bicycle, rider)
+    require_posture(posture)
+    options = Options(named_posture(posture), shoulder, arms, torso_lean, springs or {}, dampers or {})
+    warn_of_oddities(bicycle, rider)
     return CoefficientMatrices.of(closed_form.coefficients(bicycle, rider, options))

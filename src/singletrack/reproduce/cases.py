@@ -46,7 +46,7 @@ class Case:
     @property
     def options(self) -> Options:
         """How the rider sits."""
-        return Options(self.posture, self.shoulder)
+        return Options(self.posture, self.shoulder, "bent" if self.posture == "leaned" else None)
 
     @cached_property
     def seated(self) -> Posture:
@@ -56,7 +56,7 @@ class Case:
     @cached_property
     def model(self) -> CoefficientMatrices:
         """The coefficient matrices."""
-        return coefficients(self.bicycle, self.rider, self.posture, self.shoulder)
+        return coefficients(self.bicycle, self.rider, self.posture, self.shoulder, arms=self.options.arms)
 
     @cached_property
     def modes(self) -> Modes:

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from singletrack.body import skeleton
-from singletrack.posture.motion import joint_motion, steer_axis
+from singletrack.posture import steer_axis
+from singletrack.posture.motion import joint_motion
 from singletrack.public import coefficients
 from singletrack.reproduce.cases import SPEEDS
 from singletrack.reproduce.claim import Claim, first_speed, gk0_22, m_22
@@ -140,7 +141,8 @@ def _arm_direction(case: Case) -> list[Claim]:
         grip, shoulder = (skeleton(bicycle, case.rider)[point] for point in (19, 21))
         along = (grip - shoulder) / np.linalg.norm(grip - shoulder)
         angle = float(np.degrees(np.arccos(along @ axis)))
-        leaned, rigid = (coefficients(bicycle, case.rider, posture) for posture in ("leaned", "rigid"))
+        leaned = coefficients(bicycle, case.rider, "leaned", arms=case.options.arms)
+        rigid = coefficients(bicycle, case.rider, "rigid")
         rows.append((angle, m_22(leaned) / m_22(rigid) - 1))
     angles, added = (np.array(column) for column in zip(*rows, strict=True))
     order = np.argsort(-angles)

@@ -14,8 +14,9 @@ import numpy as np
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from singletrack.errors import InputError, unknown_name
-from singletrack.files.source import place_of, read_text
+from singletrack.files.source import read_text
 from singletrack.files.speeds import parse_speeds
+from singletrack.files.toml_keys import place_of
 from singletrack.library import load_bicycle, load_rider, shipped
 from singletrack.parameters import Bicycle, Rider
 from singletrack.posture import Options
@@ -85,7 +86,7 @@ class Study:
     @property
     def posture(self) -> str:
         """The rider's posture."""
-        return self.options.posture
+        return self.options.name
 
     def to_dict(self) -> dict[str, Any]:
         """Return all that decides the results and their places, for provenance: plain values, SI units."""

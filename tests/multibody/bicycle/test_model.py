@@ -271,4 +271,4 @@ def test_batches_are_refused() -> Any:
     with pytest.raises(InputError, match=r"trail: an array of shape \(2,\); the multibody engine takes one design"):
         coefficients(load_bicycle("benchmark").replace(trail=np.array([0.05, 0.08])))
     with pytest.raises(InputError, match="posture leaned needs a rider"):
-        coefficients(load_bicycle("stratos"), posture="leaned")
+        coefficients(load_bicycle("stratos"), None, "leaned")

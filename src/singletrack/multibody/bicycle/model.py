@@ -9,6 +9,7 @@ lean, with the others held, is the lean torque of Meijaard et al.; so for the st
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -16,14 +17,16 @@ import numpy as np
 from singletrack.errors import InputError
 from singletrack.mechanics import Body as Solid
 from singletrack.mechanics import combine
+from singletrack.multibody.bicycle.balance import holding_inputs
+from singletrack.multibody.bicycle.limits import riding_limits
 from singletrack.multibody.bicycle.parametrise import Numbers
-from singletrack.multibody.bicycle.rider import frame_segments, rider_elements
+from singletrack.multibody.bicycle.rider import frame_segments, preload_name, rider_elements
 from singletrack.multibody.engine.assembly import assemble, move
 from singletrack.multibody.engine.connections import CoordinateForce, Wheel
 from singletrack.multibody.engine.elements import GROUND, Body, free, revolute
 from singletrack.multibody.engine.model import Model, build
 from singletrack.multibody.engine.system import System
-from singletrack.posture import Options, seat
+from singletrack.posture import STEER, Options, input_name, seat
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -86,7 +89,7 @@ def _own_solids(bicycle: Bicycle) -> dict[str, Solid]:
     return solids
 
 
-def _elements(bicycle: Bicycle, posture: Posture | None, numbers: Numbers) -> dict[str, Any]:
+def _elements(bicycle: Bicycle, posture: Posture | None, options: Options, numbers: Numbers) -> dict[str, Any]:
     solids = _own_solids(bicycle)
     if posture is not None:
         solids["rear frame"] = combine([solids["rear frame"], *frame_segments(posture)])
@@ -100,16 +103,26 @@ def _elements(bicycle: Bicycle, posture: Posture | None, numbers: Numbers) -> di
     joints = [
         free("frame", GROUND, "rear frame", coordinates=("x", "y", "z", "yaw", "lean", "pitch")),
         revolute("rear wheel", "rear frame", "rear wheel", hubs["rear"], (0, 1, 0)),
-        revolute("steer", "rear frame", "front frame", foot, axis),
+        revolute(
+            "steer",
+            "rear frame",
+            "front frame",
+            foot,
+            axis,
+            stiffness=numbers.number("steer stiffness", options.springs.get(STEER, 0.0)),
+            damping=numbers.number("steer damping", options.dampers.get(STEER, 0.0)),
+        ),
         revolute("front wheel", "front frame", "front wheel", hubs["front"], (0, 1, 0)),
     ]
     wheels = [
         Wheel(f"{end} wheel", f"{end} wheel", hub, numbers.always(f"{end} radius", -solids[f"{end} wheel"].centre[2]))
         for end, hub in hubs.items()
     ]
+    freedoms = () if posture is None else posture.freedoms
     inputs = [
         CoordinateForce("lean torque", "lean"),
         CoordinateForce("steer torque", "steer"),
+        *(CoordinateForce(input_name(name), name) for name in freedoms),
         CoordinateForce("rear wheel torque", "rear wheel"),
     ]
     more = rider_elements(posture, numbers) if posture is not None else {"bodies": [], "joints": [], "closures": []}
@@ -154,11 +167,14 @@ def bicycle_model(bicycle: Bicycle, rider: Rider | None = None, options: Options
         options.require_rider()
     seated = None if rider is None else seat(bicycle, rider, options)
     numbers = Numbers()
-    elements = _elements(bicycle, seated, numbers)
+    elements = _elements(bicycle, seated, options, numbers)
+    freedoms = () if seated is None else seated.freedoms
+    independent = ("lean", "steer", *freedoms, "rear wheel")
     system = System(
         **elements,
         gravity=float(bicycle.gravity),
-        independent=("lean", "steer", "rear wheel"),
+        independent=independent,
+        limits=riding_limits(elements["joints"], elements["closures"], independent),
         parameters=numbers.values,
     )
     key = (numbers.key(), system.coordinates)
@@ -167,7 +183,17 @@ def bicycle_model(bicycle: Bicycle, rider: Rider | None = None, options: Options
             KINDS.pop(next(iter(KINDS)))
         KINDS[key] = build(system)
     known = KINDS[key]
-    return Model(system, known.equations, known.cache)
+    return _balanced(Model(system, known.equations, known.cache), freedoms)
+
+
+def _balanced(model: Model, freedoms: tuple[str, ...]) -> Model:
+    """Return a model whose free joints have the preload that keeps them at rest, upright and straight ahead."""
+    if not freedoms:
+        return model
+    forces = holding_inputs(assemble(model))
+    preloads = {preload_name(name): forces[input_name(name)] for name in freedoms}
+    system = replace(model.system, parameters=dict(model.system.parameters) | preloads)
+    return Model(system, model.equations, model.cache)
 
 
 def ride(

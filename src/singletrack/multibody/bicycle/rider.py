@@ -5,15 +5,16 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from singletrack.mechanics import combine
-from singletrack.multibody.engine.connections import close_point
-from singletrack.multibody.engine.elements import Body, revolute
+from singletrack.multibody.engine.connections import Closure, close_point
+from singletrack.multibody.engine.elements import Body, prismatic, revolute
+from singletrack.posture import HANDLEBAR
 
 if TYPE_CHECKING:
     from singletrack.body import Segment
     from singletrack.multibody.bicycle.parametrise import Numbers
     from singletrack.posture import Posture
 
-__all__ = ["frame_segments", "rider_elements"]
+__all__ = ["frame_segments", "preload_name", "rider_elements"]
 
 
 def frame_segments(posture: Posture) -> list[Segment]:
@@ -68,10 +69,33 @@ def rider_elements(posture: Posture, numbers: Numbers) -> dict[str, list[Any]]:
             )
         else:
             bodies.append(Body(link))
-        parent = f"{joint.parent} link" if joint.parent else "rear frame"
-        point, axis = numbers.vector(f"{joint.name} point", joint.point), numbers.vector(joint.name, joint.axis)
-        joints.append(revolute(joint.name, parent, link, point, axis))
+        axis = numbers.vector(joint.name, joint.axis)
+        law = {
+            what: numbers.number(f"{joint.name} {what}", getattr(joint, what))
+            for what in ("stiffness", "damping", "preload")
+        }
+        if joint.free:
+            law["preload"] = numbers.always(preload_name(joint.name), 0.0)
+        if joint.slides:
+            joints.append(prismatic(joint.name, _body(joint.parent), link, axis, **law))
+        else:
+            point = numbers.vector(f"{joint.name} point", joint.point)
+            joints.append(revolute(joint.name, _body(joint.parent), link, point, axis, **law))
     for loop in posture.loops:
-        grip = numbers.vector(f"{loop.name} grip", loop.point)
-        closures.append(close_point(loop.name, f"{loop.joint} link", "front frame", grip))
+        near, far = _body(loop.joint), _body(loop.to)
+        if loop.directions is None:
+            closures.append(close_point(loop.name, near, far, numbers.vector(f"{loop.name} grip", loop.point)))
+        else:
+            one, other = (numbers.vector(f"{loop.name} {k}", loop.directions[k]) for k in (0, 1))
+            closures.append(Closure(loop.name, near, far, orthogonal=((one, other),)))
     return {"bodies": bodies, "joints": joints, "closures": closures}
+
+
+def preload_name(joint: str) -> str:
+    """Return the parameter that holds the preload of a free joint, with which it is in balance at rest."""
+    return f"{joint} balance"
+
+
+def _body(link: str) -> str:
+    """Return the body that moves with a joint, with the handlebar, or with the frame ("")."""
+    return {"": "rear frame", HANDLEBAR: "front frame"}.get(link, f"{link} link")

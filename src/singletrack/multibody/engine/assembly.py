@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from singletrack.errors import ModelError
-from singletrack.multibody.engine.model import Model, State, index_of
+from singletrack.multibody.engine.model import Model, State, finite, index_of
 from singletrack.multibody.engine.partition import RANK_TOLERANCE, Partition, independent_rows, partition
 
 if TYPE_CHECKING:
@@ -15,11 +15,12 @@ if TYPE_CHECKING:
 
     from singletrack.arrays import Array
 
-__all__ = ["assemble", "close", "move", "span_of", "tangent_space"]
+__all__ = ["assemble", "close", "move", "refuse_undefined", "span_of", "tangent_space"]
 
 NEWTON_STEPS = 60
 CLOSED = 1e-12
 WALK = 21
+FLAT = 1e-12
 
 
 def _blame(model: Model, q: Array, gradient: Array, phi: Array) -> ModelError:
@@ -110,10 +111,30 @@ def assemble(
     given = model.vector(coordinates)
     q = model.vector(guess)
     fixed = [index_of(model.system, name) for name in coordinates or {}]
+    refuse_undefined(model, q, p)
     q = _reach(model, q, given, fixed, p)
+    refuse_undefined(model, q, p)
     jacobian, _ = model.kinetics(q, p)
     _refuse_singular(model, q, p, jacobian)
     return State(model, p, partition(model.system, jacobian, independent), q, np.zeros(len(q)))
+
+
+def refuse_undefined(model: Model, q: Array, p: Array) -> None:
+    """Refuse a configuration in which something has no direction, and name it.
+
+    A wheel that lies flat touches the ground all around; a spring whose ends meet, or the rod of a
+    :func:`close_distance`, pulls nowhere.
+    """
+    levels = model.equations.contacts(q, p)[2].full().ravel()
+    for wheel, level in zip(model.system.wheels, levels, strict=True):
+        if not level > FLAT:
+            raise ModelError(f"wheel {wheel.name}: its axle is vertical here: it lies flat and touches nowhere")
+    lengths = model.equations.lengths(q, p).full().ravel()
+    names = [f"spring {spring.name}" for spring in model.system.springs if not spring.is_linear]
+    names += [f"loop {closure.name}" for closure in model.system.closures if closure.length is not None]
+    for name, length in zip(names, lengths, strict=True):
+        if not length > 0.0:
+            raise ModelError(f"{name}: its ends meet here, which leaves its direction open")
 
 
 def _reach(model: Model, q: Array, given: Array, fixed: list[int], p: Array) -> Array:
@@ -183,7 +204,7 @@ def move(state: State, rates: Mapping[str, float]) -> State:
     span = tangent_space(state)
     names = list(rates)
     chosen = [index_of(state.model.system, name) for name in names]
-    values = np.array([float(rates[name]) for name in names])
+    values = np.array([finite("rate", name, rates[name]) for name in names])
     freedoms = list(state.partition.independent_speeds)
     if set(chosen) <= set(freedoms):
         speeds = np.zeros(len(freedoms))

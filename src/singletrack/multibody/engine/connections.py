@@ -58,6 +58,10 @@ class Closure:
         element = f"loop {self.name}"
         for side in ("first_point", "second_point"):
             object.__setattr__(self, side, check_vector(element, side.replace("_", " "), getattr(self, side)))
+        directions = tuple(check_axis(element, "direction", direction) for direction in self.directions)
+        pairs = tuple(tuple(check_axis(element, "direction", one) for one in pair) for pair in self.orthogonal)
+        object.__setattr__(self, "directions", directions)
+        object.__setattr__(self, "orthogonal", pairs)
 
     @property
     def rows(self) -> tuple[str, ...]:
@@ -201,6 +205,18 @@ class Spring:
     rest: Scalar = 0.0
     preload: Scalar = 0.0
 
+    def __post_init__(self) -> None:
+        element = f"spring {self.name}"
+        for name in ("first_point", "second_point"):
+            object.__setattr__(self, name, check_vector(element, name.replace("_", " "), getattr(self, name)))
+        for name, low in (("stiffness", -np.inf), ("damping", -np.inf), ("rest", 0.0), ("preload", -np.inf)):
+            object.__setattr__(self, name, check_number(element, name, getattr(self, name), low))
+
+    @property
+    def is_linear(self) -> bool:
+        """Whether it pulls by its stiffness alone, from no length on: then it needs no direction."""
+        return all(is_number(value) and value == 0.0 for value in (self.damping, self.rest, self.preload))
+
 
 @dataclass(frozen=True, eq=False)
 class Force:
@@ -211,6 +227,10 @@ class Force:
     point: Vector
     direction: Vector
     follows: bool = False
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "point", check_vector(f"input {self.name}", "point", self.point))
+        object.__setattr__(self, "direction", check_axis(f"input {self.name}", "direction", self.direction))
 
 
 @dataclass(frozen=True, eq=False)
@@ -225,6 +245,9 @@ class Torque:
     direction: Vector
     reaction: str = GROUND
     follows: bool = False
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "direction", check_axis(f"input {self.name}", "direction", self.direction))
 
 
 @dataclass(frozen=True, eq=False)
@@ -248,3 +271,7 @@ class Sensor:
     direction: Vector = (1.0, 0.0, 0.0)
     kind: Literal["position", "velocity", "rate"] = "position"
     follows: bool = False
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "point", check_vector(f"sensor {self.name}", "point", self.point))
+        object.__setattr__(self, "direction", check_axis(f"sensor {self.name}", "direction", self.direction))

@@ -68,13 +68,14 @@ def closure_wrench(closure: Closure, frames: Mapping[str, Frame], multipliers: S
 class Contact:
     """Where and how a wheel touches the ground: point, heading, and the velocity of the wheel's material there.
 
-    The velocity has three parts: forward along the heading, to the side, down. The contact sinks as fast as the
-    material in it, as the wheel is lowest there.
+    ``level`` is the length of axle x down: zero where the wheel lies flat. The velocity has three parts: forward
+    along the heading, to the side, down. The contact sinks as fast as the material in it, as the wheel is lowest there.
     """
 
     point: SX
     heading: SX
     velocity: SX
+    level: SX
 
 
 def wheel_contact(wheel: Wheel, frames: Mapping[str, Frame]) -> Contact:
@@ -89,7 +90,7 @@ def wheel_contact(wheel: Wheel, frames: Mapping[str, Frame]) -> Contact:
     side = ca.cross(DOWN, heading)
     velocity = frame.point_velocity(arm)
     parts = ca.vertcat(ca.dot(heading, velocity), ca.dot(side, velocity), velocity[2])
-    return Contact(frame.position + arm, heading, parts)
+    return Contact(frame.position + arm, heading, parts, level)
 
 
 def _quaternions(system: System, q: SX) -> list[SX]:

@@ -10,17 +10,16 @@ import numpy as np
 
 from singletrack.arrays import Array
 from singletrack.errors import ModelError, unknown_name
-from singletrack.multibody.engine.assembly import span_of
+from singletrack.multibody.engine.assembly import refuse_undefined, span_of
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping, Sequence
+    from collections.abc import Mapping
 
-    from singletrack.multibody.engine.inputs import Signal
     from singletrack.multibody.engine.model import Model, State
     from singletrack.multibody.engine.partition import Partition
     from singletrack.multibody.engine.system import System
 
-__all__ = ["Response", "accelerations", "loop_forces", "reduced", "right_side", "wheel_forces"]
+__all__ = ["Response", "accelerations", "loop_forces", "reduced", "split_wheel_forces", "wheel_forces"]
 
 MASSLESS = 1e-13
 
@@ -75,21 +74,22 @@ def _reduced(model: Model, parts: Partition) -> ca.Function:
     if dependent:
         kept = jacobian[rows, :]
         own = kept[:, dependent]
-        span = ca.vertcat(ca.MX.eye(len(free)), -_solve(own, kept[:, free]))[order, :]
+        followed = -_solve(own, kept[:, free]) if free else ca.MX(len(dependent), 0)
+        span = ca.vertcat(ca.MX.eye(len(free)), followed)[order, :]
     else:
         span = ca.MX.eye(n)[free, :].T
-    u = span @ ui
+    u = ca.densify(span @ ui) if free else ca.MX.zeros(n, 1)
     h, c = equations.bias(q, u, f, p)
     b = ca.MX(n, 1)
     if dependent:
         b = ca.vertcat(ca.MX(len(free), 1), -_solve(own, c[rows]))[order]
     push = -(h + mass @ b)
     ai = _solve(span.T @ (mass @ span), span.T @ push) if free else ca.MX(0, 1)
-    a = span @ ai + b
+    a = span @ ai + b if free else b
     multipliers = ca.MX(len(system.rows), 1)
     if dependent:
         multipliers[rows] = _solve(own.T, (mass @ a + h)[dependent])
-    return ca.Function("reduced", [q, ui, f, p], [u, a, ca.densify(multipliers)])
+    return ca.Function("reduced", [q, ui, f, p], [u, ca.densify(a), ca.densify(multipliers)])
 
 
 def accelerations(state: State, inputs: Mapping[str, float] | None = None) -> Response:
@@ -115,56 +115,6 @@ def accelerations(state: State, inputs: Mapping[str, float] | None = None) -> Re
     _, a, multipliers = function(state.q, ui, f, state.parameters)
     a, multipliers = a.full().ravel(), multipliers.full().ravel()
     return Response(a, multipliers)
-
-
-def right_side(
-    state: State, driven: Sequence[Signal] = (), start: float = -np.inf, stop: float = np.inf
-) -> Callable[[float, Array], Array]:
-    """Return the right side of the ordinary differential equations of motion, for any integrator.
-
-    The function returned takes a time and ``y = [q, u_i]``, all coordinates (n,) and the independent speeds (m,) of
-    the state's partition, and returns ``y' = [u, a_i]``. It is fast, and not to be called from several threads.
-
-    Parameters
-    ----------
-    state
-        Gives the machine, its parameters and the independent speeds.
-    driven
-        One signal for each input; zero without.
-    start, stop
-        Inputs are those inside this interval of time, s: at an end that is a break, those next to it.
-
-    Examples
-    --------
-    >>> from singletrack.multibody import Body, System, assemble, build, revolute
-    >>> bob = Body("bob", 1.0, (0, 0, 1))
-    >>> model = build(System([bob], [revolute("swing", "ground", "bob", (0, 0, 0), (0, 1, 0))], gravity=2.0))
-    >>> right_side(assemble(model))(0.0, np.array([np.pi / 2, 3.0])).round(12).tolist()
-    [3.0, -2.0]
-    """
-    n, free = len(state.q), list(state.partition.independent_speeds)
-    function = reduced(state.model, state.partition)
-    buffer: Any
-    buffer, evaluate = function.buffer()
-    q, u_i, f = np.empty(n), np.empty(len(free)), np.zeros(len(state.model.system.inputs))
-    u, a, multipliers = np.empty(n), np.empty(n), np.empty(len(state.model.system.rows))
-    for i, given in enumerate((q, u_i, f, state.parameters)):
-        buffer.set_arg(i, memoryview(given.data))
-    for i, result in enumerate((u, a, multipliers)):
-        buffer.set_res(i, memoryview(result.data))
-    low, high = np.nextafter(start, np.inf), np.nextafter(stop, -np.inf)
-
-    def evaluate_at(t: float, y: Array) -> Array:
-        q[:], u_i[:] = y[:n], y[n:]
-        inside = min(max(t, low), high)
-        for i, signal in enumerate(driven):
-            f[i] = signal(inside)
-        evaluate()
-        return np.concatenate([u, a[free]])
-
-    # the evaluation reads and writes this memory, which must live as long as it does
-    evaluate_at.keep = (buffer, multipliers, state)  # type: ignore[attr-defined]
-    return evaluate_at
 
 
 def loop_forces(state: State, inputs: Mapping[str, float] | None = None) -> dict[str, Array]:
@@ -215,6 +165,7 @@ def split_wheel_forces(system: System, multipliers: Array) -> Array:
 def _refuse_massless(state: State) -> None:
     """Refuse a state in which some independent speed, or a combination of them, moves no mass."""
     jacobian, mass = state.model.kinetics(state.q, state.parameters)
+    refuse_undefined(state.model, state.q, state.parameters)
     span = span_of(state.partition, jacobian)
     carried = span.T @ mass @ span
     size = np.sqrt(np.diag(carried))

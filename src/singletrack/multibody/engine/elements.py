@@ -49,9 +49,20 @@ Vector: TypeAlias = "Sequence[Scalar]"
 def parameter(name: str) -> Scalar:
     """Return a number that gets its value when the model is used; the same name is the same number.
 
+    The strength of gravity is one already: ``gravity``.
+
+    Raises
+    ------
+    ModelError
+        For the name ``gravity``.
+
+    Examples
+    --------
     >>> parameter("trail")
     SX(trail)
     """
+    if name == "gravity":
+        raise ModelError("parameter gravity: the name is taken by the strength of gravity; choose another")
     return ca.SX.sym(name)
 
 

@@ -24,10 +24,17 @@ from singletrack.multibody.engine.constraints import (
     holonomic_residual,
     wheel_contact,
 )
-from singletrack.multibody.engine.forces import applied_wrenches, coordinate_forces, kinetic_energy, potential_energy
+from singletrack.multibody.engine.forces import (
+    apart,
+    applied_wrenches,
+    coordinate_forces,
+    kinetic_energy,
+    potential_energy,
+)
 from singletrack.multibody.engine.kinematics import SX, Frame, column, forward, inverse, unit
 
 if TYPE_CHECKING:
+    from singletrack.multibody.engine.connections import Closure, Spring
     from singletrack.multibody.engine.system import System
 
 __all__ = ["Equations", "derive"]
@@ -55,7 +62,10 @@ class Equations:
     energy
         (q, u, p) -> kinetic and potential energy, J.
     contacts
-        (q, p) -> contact points (3, wheels), headings (3, wheels).
+        (q, p) -> contact points (3, wheels), headings (3, wheels), how upright the wheels are (1, wheels): one upright,
+        zero where the axle is vertical.
+    lengths
+        (q, p) -> lengths of the springs that need a direction, then of the rods of fixed length.
     loop_wrenches
         (q, m, p) -> forces (3, loops), torques (3, loops) of first on second bodies.
     sensors
@@ -70,6 +80,7 @@ class Equations:
     input_matrix: ca.Function
     energy: ca.Function
     contacts: ca.Function
+    lengths: ca.Function
     loop_wrenches: ca.Function
     sensors: ca.Function
 
@@ -122,6 +133,12 @@ def _matrix(columns: list[SX]) -> SX:
     return ca.horzcat(ca.SX(3, 0), *columns)
 
 
+def _lengths(system: System, frames: dict[str, Frame]) -> SX:
+    ends: list[Spring | Closure] = [spring for spring in system.springs if not spring.is_linear]
+    ends += [closure for closure in system.closures if closure.length is not None]
+    return ca.vertcat(ca.SX(0, 1), *(ca.norm_2(apart(end, frames)) for end in ends))
+
+
 def _loop_wrenches(system: System, s: _Symbols) -> tuple[SX, SX]:
     forces, torques, start = [], [], 0
     for closure in system.closures:
@@ -162,6 +179,7 @@ def derive(system: System) -> Equations:
     change = ca.jtimes(ca.vertcat(residual, acceleration_level), ca.vertcat(s.q, s.u), ca.vertcat(dq, du))
     points = _matrix([s.contacts[wheel.name].point for wheel in system.wheels])
     headings = _matrix([s.contacts[wheel.name].heading for wheel in system.wheels])
+    levels = ca.horzcat(ca.SX(1, 0), *(s.contacts[wheel.name].level for wheel in system.wheels))
     outputs = {
         "holonomic": ((s.q,), (s.phi, jacobian[: s.phi.numel(), :])),
         "kinetics": ((s.q,), (jacobian, mass)),
@@ -175,7 +193,8 @@ def derive(system: System) -> Equations:
             (s.q, s.u),
             (kinetic_energy(system, s.frames), potential_energy(system, s.frames, s.gravity, s.q)),
         ),
-        "contacts": ((s.q,), (points, headings)),
+        "contacts": ((s.q,), (points, headings, levels)),
+        "lengths": ((s.q,), (_lengths(system, s.frames),)),
         "loop_wrenches": ((s.q, s.m), _loop_wrenches(system, s)),
         "sensors": ((s.q, s.u), (_sensor_outputs(system, s.frames),)),
     }

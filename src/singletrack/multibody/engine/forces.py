@@ -12,19 +12,26 @@ from singletrack.multibody.engine.kinematics import SX, Wrench, column, inertia_
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from singletrack.multibody.engine.connections import Spring
+    from singletrack.multibody.engine.connections import Closure, Spring
     from singletrack.multibody.engine.kinematics import Frame
     from singletrack.multibody.engine.system import System
 
-__all__ = ["applied_wrenches", "coordinate_forces", "potential_energy"]
+__all__ = ["apart", "applied_wrenches", "coordinate_forces", "potential_energy"]
+
+
+def apart(spring: Spring | Closure, frames: Mapping[str, Frame]) -> SX:
+    """Return the vector from the first end to the second, of a spring or a loop."""
+    first, second = frames[spring.first], frames[spring.second]
+    second_arm, first_arm = second.arm(column(spring.second_point)), first.arm(column(spring.first_point))
+    return second.position + second_arm - first.position - first_arm
 
 
 def _stretch(spring: Spring, frames: Mapping[str, Frame]) -> tuple[SX, SX, SX, SX, SX]:
     first, second = frames[spring.first], frames[spring.second]
     arms = first.arm(column(spring.first_point)), second.arm(column(spring.second_point))
-    apart = second.position + arms[1] - first.position - arms[0]
-    length = ca.norm_2(apart)
-    direction = apart / length
+    between = apart(spring, frames)
+    length = ca.norm_2(between)
+    direction = between / length
     rate = ca.dot(direction, second.point_velocity(arms[1]) - first.point_velocity(arms[0]))
     return arms[0], arms[1], direction, length, rate
 
@@ -44,8 +51,11 @@ def applied_wrenches(system: System, frames: Mapping[str, Frame], gravity: SX, i
     for spring in system.springs:
         first, second, direction, length, rate = _stretch(spring, frames)
         tension = spring.stiffness * (length - spring.rest) + spring.damping * rate + spring.preload
-        push(spring.first, first, tension * direction)
-        push(spring.second, second, -tension * direction)
+        pulled = tension * direction
+        if spring.is_linear:  # smooth where its ends meet
+            pulled = spring.stiffness * apart(spring, frames)
+        push(spring.first, first, pulled)
+        push(spring.second, second, -pulled)
     for i, given in enumerate(system.inputs):
         if isinstance(given, CoordinateForce):
             continue
@@ -89,6 +99,10 @@ def potential_energy(system: System, frames: Mapping[str, Frame], gravity: SX, q
     for body in system.bodies:
         energy -= body.mass * gravity * ca.dot(down, frames[body.name].point(column(body.centre)))
     for spring in system.springs:
+        if spring.is_linear:
+            between = apart(spring, frames)
+            energy += 0.5 * spring.stiffness * ca.dot(between, between)
+            continue
         length = _stretch(spring, frames)[3]
         energy += 0.5 * spring.stiffness * (length - spring.rest) ** 2 + spring.preload * length
     motions = [motion for joint in system.joints for motion in joint.motions]

@@ -28,7 +28,9 @@ if TYPE_CHECKING:
 
 __all__ = ["Linearisation", "linearise", "speed_polynomials"]
 
-NEGLIGIBLE = 1e-10
+LAST_DIGITS = 1e-13
+TRIALS = 3
+ABOVE = 10.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -100,15 +102,41 @@ class Linearisation:
         return self.M[pick], self.C[pick], self.K[np.ix_(rows, columns)], self.B[rows]
 
 
-def _essential(v: Variations, names: Sequence[str], keep: Sequence[str] | None) -> list[int]:
-    """Return which independent coordinates matter: those that change forces, or the rates of others that do."""
+def _essential(
+    state: State,
+    response: Response,
+    f: Array,
+    v: Variations,
+    keep: Sequence[str] | None,
+) -> list[int]:
+    """Return which independent coordinates matter: those that change forces, or the rates of others that do.
+
+    Each entry is judged by itself, whatever its unit and whatever else is stiff: an entry of K that is only rounding
+    changes by as much as its own size where the state is disturbed in its last digits, one that matters does not.
+    """
+    names = [state.model.system.coordinates[i] for i in state.partition.independent_coordinates]
     if keep is not None:
         for name in keep:
             if name not in names:
                 raise ModelError(unknown_name("independent coordinate", name, names))
         return [names.index(name) for name in keep]
-    scale = max(np.max(abs(v.K), initial=0.0), np.max(abs(v.M), initial=0.0), np.max(abs(v.C), initial=0.0))
-    return [i for i in range(v.K.shape[1]) if np.max(abs(v.K[:, i]), initial=0.0) > NEGLIGIBLE * scale]
+    noise = np.zeros_like(v.K)
+    rng = np.random.default_rng(0)
+    for _ in range(TRIALS):
+        disturbed, changed = (_disturbed(given, rng) for given in (state, response))
+        noise = np.maximum(noise, abs(vary(disturbed, changed, f).K - v.K))
+    return [i for i in range(v.K.shape[1]) if np.any(abs(v.K[:, i]) > ABOVE * noise[:, i])]
+
+
+def _disturbed(given: Any, rng: np.random.Generator) -> Any:
+    """Return a state or response with every number changed in its last digits."""
+    names = ("q", "u") if isinstance(given, State) else ("a", "multipliers")
+    changes = {}
+    for name in names:
+        values = getattr(given, name)
+        size = np.maximum(abs(values), 1.0 if name == "q" else 0.0)
+        changes[name] = values + LAST_DIGITS * size * rng.uniform(-1.0, 1.0, values.shape)
+    return replace(given, **changes)
 
 
 def linearise(
@@ -150,7 +178,7 @@ def linearise(
     f = input_vector(system, inputs)
     v = vary(state, response, f)
     names = [system.coordinates[i] for i in state.partition.independent_coordinates]
-    kept = _essential(v, names, keep)
+    kept = _essential(state, response, f, v, keep)
     _refuse_unsteady(state, response, [names[i] for i in kept])
     drive = v.span.T @ state.model.equations.input_matrix(state.q, state.parameters).full()
     places = [state.partition.independent_coordinates[i] for i in kept]

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import pickle
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
+import casadi as ca
 import numpy as np
 
 from singletrack.arrays import Array
@@ -17,7 +19,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
 
-__all__ = ["Model", "State", "build"]
+__all__ = ["Model", "State", "build", "finite", "index_of"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,6 +43,9 @@ class Model:
         for name in values or {}:
             if name not in known:
                 raise ModelError(unknown_name("parameter", name, known))
+        for name, value in chosen.items():
+            if not np.isfinite(float(value)):
+                raise ModelError(f"parameter {name}: {value!r}; allowed: a finite number")
         missing = [name for name in known if name not in chosen]
         if missing:
             raise ModelError(f"no value for the parameters {', '.join(missing)}")
@@ -53,8 +58,13 @@ class Model:
         for name, value in (values or {}).items():
             if name not in names:
                 raise ModelError(unknown_name(what, name, names))
-            vector[names.index(name)] = value
+            vector[names.index(name)] = finite(what, name, value)
         return vector
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        with ca.global_pickle_context():
+            system = pickle.dumps(self.system)
+        return _restored, (system, self.equations)
 
     def holonomic(self, q: Array, p: Array) -> tuple[Array, Array]:
         """Return the residual phi (rows,) of the holonomic constraints and its gradient (rows, n)."""
@@ -107,6 +117,23 @@ class State:
             f"{len(system.coordinates)} coordinates, {len(system.rows)} constraints, {len(self.freedoms)} degrees of "
             f"freedom: {', '.join(self.freedoms) or 'none'}\nredundant constraints: {', '.join(redundant) or 'none'}"
         )
+
+
+def _restored(system: bytes, equations: Equations) -> Model:
+    """Return a model from its pickled system; symbols live in a context of their own."""
+    with ca.global_unpickle_context():
+        return Model(pickle.loads(system), equations)  # noqa: S301  # part of what is being unpickled
+
+
+def finite(what: str, name: str, value: float) -> float:
+    """Return a value given for a name; refuse what is no finite number."""
+    try:
+        number = float(value)
+    except (TypeError, ValueError):
+        number = np.nan
+    if not np.isfinite(number):
+        raise ModelError(f"{what} {name}: {value!r}; allowed: a finite number")
+    return number
 
 
 def index_of(system: System, name: str) -> int:

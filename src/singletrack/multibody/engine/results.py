@@ -38,42 +38,49 @@ class Snapshot:
     state: State
 
 
-def _responses(samples: Sequence[Snapshot], inputs: Array) -> tuple[Array, Array]:
-    """Return accelerations (k, n) and multipliers (k, rows) of all samples."""
+def _responses(snapshots: Sequence[Snapshot], inputs: Array) -> tuple[Array, Array]:
+    """Return accelerations (k, n) and multipliers (k, rows) of all snapshots; NaN where they are not determined."""
     a, multipliers, start = [], [], 0
-    for parts, group in groupby(samples, key=lambda sample: sample.state.partition):
-        states = [sample.state for sample in group]
+    for parts, group in groupby(snapshots, key=lambda snapshot: snapshot.state.partition):
+        states = [snapshot.state for snapshot in group]
         q = np.array([state.q for state in states]).T
         u_i = np.array([state.u[list(parts.independent_speeds)] for state in states]).T
         f = inputs[start : start + len(states)].T
-        _, a_part, m_part = reduced(states[0].model, parts)(q, u_i, f, states[0].parameters)
-        a.append(a_part.full().T)
-        multipliers.append(m_part.full().T)
+        a_part, m_part = _respond(states[0], q, u_i, f)
+        a.append(a_part)
+        multipliers.append(m_part)
         start += len(states)
     return np.vstack(a), np.vstack(multipliers)
 
 
+def _respond(state: State, q: Array, u_i: Array, f: Array) -> tuple[Array, Array]:
+    """Return accelerations and multipliers of a group of states, one by one where one of them is singular."""
+    try:
+        _, a, multipliers = reduced(state.model, state.partition)(q, u_i, f, state.parameters)
+    except RuntimeError:
+        if q.shape[1] > 1:
+            each = [_respond(state, q[:, [i]], u_i[:, [i]], f[:, [i]]) for i in range(q.shape[1])]
+            return np.vstack([a for a, _ in each]), np.vstack([m for _, m in each])
+        return np.full((1, len(q)), np.nan), np.full((1, len(state.model.system.rows)), np.nan)
+    return a.full().T, multipliers.full().T
+
+
 def _blocks(matrix: Any, count: int, width: int) -> Array:
-    """Return mapped (3, width) results of ``count`` samples as (count, width, 3)."""
+    """Return mapped (3, width) results of ``count`` snapshots as (count, width, 3)."""
     return matrix.full().T.reshape(count, width, 3)
 
 
 def gather(
-    start: State,
-    driven: Sequence[Signal],
-    times: Array,
-    samples: Sequence[Snapshot],
-    passages: Sequence[tuple[str, float]],
+    snapshots: Sequence[Snapshot], driven: Sequence[Signal], happened: Sequence[tuple[str, float]]
 ) -> xr.Dataset:
-    """Collect the samples of a simulation into a data set (see the module's text)."""
+    """Collect the snapshots of a simulation, and what happened in it, into a data set (see the module's text)."""
     import xarray as xr  # slow to import
 
-    if not samples or samples[0].time > times[0]:
-        samples = [Snapshot(float(times[0]), start), *samples]
-    t = np.array([sample.time for sample in samples])
+    start = snapshots[0].state
+    t = np.array([snapshot.time for snapshot in snapshots])
     inputs = np.array([[signal(moment) for signal in driven] for moment in t]).reshape(len(t), len(driven))
-    variables = _variables(start, samples, inputs)
-    variables["event_time"] = ("event", np.array([moment for _, moment in passages], dtype=float))
+    variables = _variables(start, snapshots, inputs)
+    variables["event_time"] = ("event", np.array([moment for _, moment in happened], dtype=float))
     system = start.model.system
     coords = {
         "time": t,
@@ -84,16 +91,16 @@ def gather(
         "loop": [closure.name for closure in system.closures],
         "axis": ["x", "y", "z"],
         "component": ["longitudinal", "lateral", "normal"],
-        "event": np.array([name for name, _ in passages], dtype=str),
+        "event": np.array([name for name, _ in happened], dtype=str),
     }
     return xr.Dataset(variables, coords=coords)
 
 
-def _variables(start: State, samples: Sequence[Snapshot], inputs: Array) -> dict[str, Any]:
+def _variables(start: State, snapshots: Sequence[Snapshot], inputs: Array) -> dict[str, Any]:
     """Return dimensions and values of all that varies over time."""
-    system, equations, p, count = start.model.system, start.model.equations, start.parameters, len(samples)
-    q, u = (np.array([getattr(sample.state, name) for sample in samples]) for name in ("q", "u"))
-    a, multipliers = _responses(samples, inputs)
+    system, equations, p, count = start.model.system, start.model.equations, start.parameters, len(snapshots)
+    q, u = (np.array([getattr(snapshot.state, name) for snapshot in snapshots]) for name in ("q", "u"))
+    a, multipliers = _responses(snapshots, inputs)
     kinetic, potential = (value.full().ravel() for value in equations.energy(q.T, u.T, p))
     points = equations.contacts(q.T, p)[0]
     forces, torques = equations.loop_wrenches(q.T, multipliers.T, p)

@@ -8,9 +8,10 @@ from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from singletrack.errors import ModelError, unknown_name
-from singletrack.multibody.engine.checks import check_number, check_vector, is_number
+from singletrack.multibody.engine.checks import check_axis, check_number, is_number
 from singletrack.multibody.engine.connections import Closure, CoordinateForce, Force, Sensor, Spring, Torque, Wheel
 from singletrack.multibody.engine.elements import GROUND, Body, Joint, Scalar, Vector
+from singletrack.multibody.engine.limits import Limit, Reach
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -37,6 +38,8 @@ class System:
         Direction of gravity. Wheels roll on z = 0 whatever it is.
     independent
         Names of the coordinates whose rates shall be the independent speeds; found automatically where None.
+    limits
+        Where a simulation ends by itself: ranges of coordinates, and loops at the end of their reach.
     parameters
         Values of the parameters used in the elements, by name; what is missing must be given later.
 
@@ -63,20 +66,27 @@ class System:
     gravity: Scalar = 9.81
     down: Vector = (0.0, 0.0, 1.0)
     independent: tuple[str, ...] | None = None
+    limits: tuple[Limit | Reach, ...] = ()
     parameters: Mapping[str, float] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        for name in ("bodies", "joints", "closures", "wheels", "springs", "inputs", "sensors"):
+        for name in ("bodies", "joints", "closures", "wheels", "springs", "inputs", "sensors", "limits"):
             object.__setattr__(self, name, tuple(getattr(self, name)))
         if not is_number(self.gravity):
             raise ModelError("system: gravity must be a number; to vary it, give the parameter `gravity` a value later")
         object.__setattr__(self, "gravity", check_number("system", "gravity", self.gravity))
-        object.__setattr__(self, "down", check_vector("system", "down", self.down))
+        object.__setattr__(self, "down", check_axis("system", "down", self.down))
         if self.independent is not None:
             object.__setattr__(self, "independent", tuple(self.independent))
         _check_names(self)
         _check_tree(self)
         _check_connections(self)
+        _check_limits(self)
+
+    def rows_of(self, loops: Iterable[str]) -> list[int]:
+        """Return the places of the equations of some loops among the constraints."""
+        own = {row for closure in self.closures if closure.name in loops for row in closure.rows}
+        return [i for i, row in enumerate(self.holonomic_rows) if row in own]
 
     def replace(self, **changes: Any) -> System:
         """Return a copy with some fields changed, checked anew."""
@@ -172,3 +182,22 @@ def _check_connections(system: System) -> None:
     for wheel in system.wheels:
         if wheel.body == GROUND:
             raise ModelError(f"wheel {wheel.name}: the ground does not roll on itself")
+
+
+def _check_limits(system: System) -> None:
+    loops = [closure.name for closure in system.closures]
+    for limit in system.limits:
+        for name in (limit.coordinate,) if isinstance(limit, Limit) else limit.coordinates:
+            if name not in system.coordinates:
+                raise ModelError("limit: " + unknown_name("coordinate", name, system.coordinates))
+        if isinstance(limit, Limit):
+            continue
+        for name in limit.loops:
+            if name not in loops:
+                raise ModelError("limit: " + unknown_name("loop", name, loops))
+        count = len(system.rows_of(limit.loops))
+        if count != len(limit.coordinates):
+            raise ModelError(
+                f"reach of {', '.join(limit.loops)}: {count} equations do not determine {len(limit.coordinates)} "
+                "coordinates"
+            )

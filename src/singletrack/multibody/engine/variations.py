@@ -105,4 +105,6 @@ def vary(state: State, response: Response, f: Array) -> Variations:
         da = _follow(state, jacobian, acceleration)
         damping.append(span.T @ (residual + mass @ da))
     columns = np.array(speed_changes).reshape(-1, len(zero)).T
-    return Variations(span, span.T @ mass @ span, directions, np.array(stiffness).T, np.array(damping).T, columns)
+    m, k = span.shape[1], directions.shape[1]
+    stiff, damped = np.array(stiffness).reshape(k, m).T, np.array(damping).reshape(m, m).T
+    return Variations(span, span.T @ mass @ span, directions, stiff, damped, columns)

@@ -1,0 +1,240 @@
+"""A rider seated on a bicycle: a mechanism with its points, axes and segments in numbers.
+
+A description only, which both derivations of the equations read.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from singletrack.arrays import Array, as_arrays, cross, unit_vector, vector
+from singletrack.body import Segment, Skeleton, rider_segments, skeleton
+from singletrack.parameters import Bicycle
+from singletrack.posture.mechanism import FRAME, HANDLEBAR, Direction, Mechanism, Place
+from singletrack.posture.options import Options
+from singletrack.posture.shipped import mechanism_of
+from singletrack.posture.tree import Tree, make_tree
+
+if TYPE_CHECKING:
+    from singletrack.parameters import Rider
+
+__all__ = ["Joint", "Loop", "Posture", "seat", "steer_axis"]
+
+
+@dataclass(frozen=True, eq=False)
+class Joint:
+    """A hinge of the rider, or a slider.
+
+    Attributes
+    ----------
+    name : str
+    parent : str
+        Name of the joint whose link carries this one, "" for the rear frame.
+    point, axis : array, shape (..., 3)
+        A point on the axis, in m, and the axis' unit vector, in the bicycle's frame, upright and straight ahead.
+    slides, free : bool
+        A slider along the axis; a coordinate of the model.
+    stiffness, damping, preload : array, shape (...)
+        N m/rad, N m s/rad, N m (sliders: N/m, N s/m, N). The preload of a free joint follows from balance at rest.
+    """
+
+    name: str
+    parent: str
+    point: Array
+    axis: Array
+    slides: bool = False
+    free: bool = False
+    stiffness: Array = 0.0
+    damping: Array = 0.0
+    preload: Array = 0.0
+
+
+@dataclass(frozen=True, eq=False)
+class Loop:
+    """A loop, such as a hand on the handlebar: a point of a link that stays at a point of something else.
+
+    Attributes
+    ----------
+    name : str
+    joint : str
+        Name of the joint whose link carries the hand.
+    point : array, shape (..., 3), or None
+        The grip, in m.
+    to : str
+        What holds the point: ``handlebar``, ``""`` for the rear frame, or a joint.
+    directions : (array, array), each of shape (..., 3), optional
+        Instead of a point: a direction of the joint's link and one of the other that stay perpendicular.
+    """
+
+    name: str
+    joint: str
+    point: Array
+    to: str = HANDLEBAR
+    directions: tuple[Array, Array] | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class Posture:
+    """A rider seated on a bicycle.
+
+    Attributes
+    ----------
+    name, shoulder : str
+        The posture; the shoulder's second axis ("" without hands on the bar).
+    skeleton : Skeleton
+    segments : dict of str to Segment
+        The rider's bodies by name.
+    joints : tuple of Joint
+        Each after its parent.
+    loops : tuple of Loop
+    carried_by : dict of str to str
+        Name of the joint whose link a segment belongs to; segments that are not named stay with the rear frame.
+    """
+
+    name: str
+    shoulder: str
+    skeleton: Skeleton
+    segments: dict[str, Segment]
+    joints: tuple[Joint, ...] = ()
+    loops: tuple[Loop, ...] = ()
+    carried_by: dict[str, str] | None = None
+
+    def chain(self, joint: str) -> tuple[Joint, ...]:
+        """Return the joints from the rear frame out to ``joint``, in order ("" gives none)."""
+        by_name = {j.name: j for j in self.joints}
+        chain: list[Joint] = []
+        while joint:
+            chain.insert(0, by_name[joint])
+            joint = by_name[joint].parent
+        return tuple(chain)
+
+    @property
+    def freedoms(self) -> tuple[str, ...]:
+        """Names of the joints that are coordinates of the model beside lean and steer."""
+        return tuple(joint.name for joint in self.joints if joint.free)
+
+    @property
+    def tree(self) -> Tree:
+        """What the equations need of the structure."""
+        carried = self.carried_by or {}
+        return make_tree(
+            self.name,
+            tuple((joint.name, joint.parent, joint.slides, joint.free) for joint in self.joints),
+            tuple((loop.name, loop.joint, loop.to, loop.directions is None) for loop in self.loops),
+            tuple(carried.get(name, "") for name in self.segments),
+        )
+
+
+def seat(bicycle: Bicycle, rider: Rider, options: Options | str = "rigid") -> Posture:
+    """Seat a rider on a bicycle in a posture.
+
+    Parameters
+    ----------
+    bicycle : Bicycle
+    rider : Rider
+    options : Options or str
+        How the rider sits, or a posture's name.
+
+    Raises
+    ------
+    InputError
+        For an unknown name, a bicycle without frame geometry, a rider without forward lean angle.
+    PostureError
+        If arms or legs do not reach.
+
+    Examples
+    --------
+    >>> from singletrack import load_bicycle, load_rider
+    >>> [joint.name for joint in seat(load_bicycle("browser"), load_rider("rider-a"), "upright").joints][:3]
+    ['right shoulder flexion', 'right shoulder rotation', 'right elbow']
+    """
+    options = Options.of(options)
+    mechanism = mechanism_of(options)
+    points = skeleton(bicycle, rider)
+    resolve = _Resolver(points, bicycle)
+    joints = tuple(
+        Joint(
+            plan.name,
+            _link(plan.parent),
+            resolve.place(plan.point),
+            resolve.direction(plan.axis),
+            plan.slides,
+            plan.free,
+            plan.stiffness,
+            plan.damping,
+            plan.preload,
+        )
+        for plan in mechanism.joints
+    )
+    loops = tuple(
+        Loop(
+            plan.name,
+            _link(plan.joint),
+            None if plan.point is None else resolve.place(plan.point),
+            _link(plan.to),
+            None if plan.perpendicular is None else resolve.pair(plan.perpendicular),
+        )
+        for plan in mechanism.loops
+    )
+    return Posture(
+        mechanism.name,
+        _shoulder(mechanism),
+        points,
+        rider_segments(rider, points, mechanism.arms),
+        joints,
+        loops,
+        {segment: _link(joint) for segment, joint in mechanism.segments.items() if joint != FRAME},
+    )
+
+
+def steer_axis(bicycle: Bicycle) -> tuple[Array, Array]:
+    """Return a point (..., 3) on the steer axis, at the ground, in m, and its unit vector (..., 3), pointing down.
+
+    >>> from singletrack import load_bicycle
+    >>> point, axis = steer_axis(load_bicycle("benchmark"))
+    >>> point.round(6).tolist(), axis.round(6).tolist()
+    ([1.1, 0.0, 0.0], [0.309017, 0.0, 0.951057])
+    """
+    xp, (reach, tilt) = as_arrays(bicycle.wheel_base + bicycle.trail, bicycle.steer_axis_tilt)
+    return vector(reach, 0.0, 0.0), vector(xp.sin(tilt), 0.0, xp.cos(tilt))
+
+
+def _link(name: str) -> str:
+    return "" if name == FRAME else name
+
+
+def _shoulder(mechanism: Mechanism) -> str:
+    """Return what the shoulder does about its second axis, as the shipped postures call their joints."""
+    names = {joint.name for joint in mechanism.joints}
+    kinds = {"abduction": "right shoulder abduction", "axial": "right shoulder rotation"}
+    return next((kind for kind, joint in kinds.items() if joint in names), "")
+
+
+@dataclass(frozen=True, eq=False)
+class _Resolver:
+    """Points and directions of a mechanism in the numbers of a skeleton."""
+
+    points: Skeleton
+    bicycle: Bicycle
+
+    def place(self, place: Place) -> Array:
+        if place.at is not None:
+            return vector(*place.at)
+        start = self.points[place.number]
+        return start + place.share * (self.points[place.towards] - start) if place.towards else start
+
+    def direction(self, direction: Direction) -> Array:
+        if direction.vector is not None:
+            return unit_vector(vector(*direction.vector))
+        if direction.name == "steer":
+            return steer_axis(self.bicycle)[1]
+        if direction.name:
+            return self.points.elbow_axis(direction.name.split()[0])
+        assert direction.start is not None  # noqa: S101  # the reader takes care of it
+        assert direction.end is not None  # noqa: S101
+        line = self.place(direction.end) - self.place(direction.start)
+        return unit_vector(line if direction.across is None else cross(line, vector(*direction.across)))
+
+    def pair(self, directions: tuple[Direction, Direction]) -> tuple[Array, Array]:
+        return self.direction(directions[0]), self.direction(directions[1])

@@ -1,0 +1,237 @@
+"""From options to a mechanism: the shipped ones, files, torso lean, soft hands, springs and dampers by joint."""
+
+from __future__ import annotations
+
+import functools
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from singletrack.errors import InputError, unknown_name
+from singletrack.files.source import read_text
+from singletrack.library import shipped
+from singletrack.posture.mechanism import FRAME, Direction, JointPlan, LoopPlan, Mechanism, Place
+from singletrack.posture.mechanism_file import parse_mechanism
+from singletrack.posture.options import POSTURES, STEER, Options
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from singletrack.arrays import Array
+
+__all__ = ["TORSO_LEAN", "load_posture", "mechanism_of", "named_posture"]
+
+#: The hinge along x at the hips of the journal version (2012), under all of the upper body.
+TORSO_LEAN = "torso lean"
+_HANDS = "hands"
+#: File of each shipped posture by its options (shoulder, arms); the first is the default.
+_VARIANTS: dict[str, dict[tuple[str, str | None], str]] = {
+    "upright": {("axial", None): "upright-axial", ("abduction", None): "upright-abduction"},
+    "leaned": {
+        ("abduction", "straight"): "leaned-straight-abduction",
+        ("abduction", "bent"): "leaned-bent-abduction",
+        ("axial", "bent"): "leaned-bent-axial",
+    },
+}
+
+
+def load_posture(name_or_path: str | Path) -> Mechanism:
+    """Load a mechanism: a shipped posture's name, or a file.
+
+    Raises
+    ------
+    InputError
+        If there is no such thing, or the file is no mechanism.
+
+    Examples
+    --------
+    >>> load_posture("upright").freedoms, len(load_posture("upright").joints)
+    ((), 6)
+    """
+    name = str(name_or_path)
+    if name in _VARIANTS:
+        return _base(name, None, None)
+    if name in shipped("posture"):
+        return _read(name)
+    path = Path(name_or_path)
+    try:
+        there = path.exists()
+    except (OSError, ValueError):  # a name too long, or with a NUL
+        there = False
+    if not there:
+        known = dict.fromkeys([*POSTURES, *(name for name in shipped("posture") if name not in _variant_files())])
+        raise InputError(f"{unknown_name('posture', name[:200], known)}, and there is no such file")
+    return parse_mechanism(read_text(path), str(path))
+
+
+def named_posture(found: str | Path | Mechanism) -> str | Mechanism:
+    """Return a posture as options take it: a shipped name as it is, a file's mechanism, a mechanism as it is.
+
+    Raises
+    ------
+    InputError
+        If there is no such posture and no such file.
+
+    Examples
+    --------
+    >>> named_posture("leaned")
+    'leaned'
+    """
+    if isinstance(found, Mechanism):
+        return found
+    name = str(found)
+    return name if name in POSTURES or name in shipped("posture") else load_posture(found)
+
+
+def mechanism_of(options: Options) -> Mechanism:
+    """Return the mechanism that options ask for.
+
+    Raises
+    ------
+    InputError
+        For an option that the posture does not have, springs or dampers at joints that it does not have.
+
+    Examples
+    --------
+    >>> from singletrack.posture import Options
+    >>> mechanism_of(Options("upright", torso_lean=True, springs={"torso lean": 100.0})).joints[0].stiffness
+    100.0
+    """
+    if isinstance(options.posture, Mechanism):
+        mechanism = options.posture
+        if options.shoulder is not None or options.arms is not None:
+            raise InputError(f"posture {mechanism.name}: is a mechanism; its file says what shoulders and arms do")
+        mechanism = with_torso_lean(mechanism) if options.torso_lean else mechanism
+    else:
+        mechanism = _base(options.posture, options.shoulder, options.arms)
+        mechanism = _leaning(options.posture, options.shoulder, options.arms) if options.torso_lean else mechanism
+    if options.springs or options.dampers:
+        mechanism = _sprung(mechanism, options.springs, options.dampers)
+    return _with_sliders(mechanism) if any(loop.stiffness is not None for loop in mechanism.loops) else mechanism
+
+
+def _variant_files() -> set[str]:
+    return {name for variants in _VARIANTS.values() for name in variants.values()}
+
+
+@functools.cache
+def _read(name: str) -> Mechanism:
+    return parse_mechanism(shipped("posture")[name].read_text(encoding="utf-8"), name)
+
+
+@functools.cache
+def _base(posture: str, shoulder: str | None, arms: str | None) -> Mechanism:
+    variants = _VARIANTS.get(posture)
+    if variants is None:
+        return _read(posture)
+    for (own_shoulder, own_arms), name in variants.items():
+        if shoulder in {None, own_shoulder} and arms in {None, own_arms}:
+            return _read(name)
+    raise InputError(
+        f"posture {posture} with shoulder = {shoulder} and arms = {arms}: straight arms that only flex and turn about "
+        "themselves cannot follow the handlebar; allowed: arms = bent, or shoulder = abduction"
+    )
+
+
+@functools.cache
+def _leaning(posture: str, shoulder: str | None, arms: str | None) -> Mechanism:
+    return with_torso_lean(_base(posture, shoulder, arms))
+
+
+def with_torso_lean(mechanism: Mechanism) -> Mechanism:
+    """Return a mechanism with one more free hinge, along x at the hips, under all that is not a leg.
+
+    >>> with_torso_lean(load_posture("rigid")).segments["head"]
+    'torso lean'
+    """
+    if any(joint.name == TORSO_LEAN for joint in mechanism.joints):
+        raise InputError(f"posture {mechanism.name}: has a joint {TORSO_LEAN} already; ask for no torso lean beside it")
+    lean = JointPlan(TORSO_LEAN, FRAME, Place(13), Direction(vector=(1.0, 0.0, 0.0)), free=True)
+    legs = {joint.name for joint in mechanism.joints if joint.parent == FRAME and _carries_legs_only(mechanism, joint)}
+    joints = tuple(
+        replace(joint, parent=TORSO_LEAN) if joint.parent == FRAME and joint.name not in legs else joint
+        for joint in mechanism.joints
+    )
+    segments = {
+        name: TORSO_LEAN if joint == FRAME and "leg" not in name else joint
+        for name, joint in mechanism.segments.items()
+    }
+    return replace(mechanism, joints=(lean, *joints), segments=segments)
+
+
+def _carries_legs_only(mechanism: Mechanism, root: JointPlan) -> bool:
+    beyond = {root.name}
+    for joint in mechanism.joints:
+        if joint.parent in beyond:
+            beyond.add(joint.name)
+    carried = [segment for segment, joint in mechanism.segments.items() if joint in beyond]
+    return bool(carried) and all("leg" in segment for segment in carried)
+
+
+def _sprung(mechanism: Mechanism, springs: Mapping[str, Array], dampers: Mapping[str, Array]) -> Mechanism:
+    """Return a mechanism with springs and dampers at joints and hands by name, in place of its own."""
+    joints = {joint.name: joint for joint in mechanism.joints}
+    loops = {loop.name: loop for loop in mechanism.loops if loop.point is not None}
+    known = [*joints, *loops, *([_HANDS] if loops else []), STEER]
+    for what, values in (("stiffness", springs), ("damping", dampers)):
+        for name, value in values.items():
+            if name not in known:
+                at = "spring" if what == "stiffness" else "damper"
+                raise InputError(f"posture {mechanism.name}: {unknown_name(f'joint of a {at}', name, known)}")
+            if name in joints:
+                plan = joints[name]
+                joints[name] = replace(plan, stiffness=value) if what == "stiffness" else replace(plan, damping=value)
+            for loop in loops if name == _HANDS else [name] if name in loops else []:
+                soft = replace(loops[loop], stiffness=0.0 if loops[loop].stiffness is None else loops[loop].stiffness)
+                loops[loop] = replace(soft, stiffness=value) if what == "stiffness" else replace(soft, damping=value)
+    softened = tuple(loops.get(loop.name, loop) for loop in mechanism.loops)
+    return replace(mechanism, joints=_freed(tuple(joints.values()), mechanism.loops, softened), loops=softened)
+
+
+def _freed(
+    joints: tuple[JointPlan, ...], before: tuple[LoopPlan, ...], after: tuple[LoopPlan, ...]
+) -> tuple[JointPlan, ...]:
+    """Return the joints with those free that only hands determined that are soft now."""
+    parents = {joint.name: joint.parent for joint in joints}
+
+    def touched(loops: list[LoopPlan]) -> set[str]:
+        found = set()
+        for loop in loops:
+            for end in (loop.joint, loop.to):
+                while end in parents:
+                    found.add(end)
+                    end = parents[end]  # noqa: PLW2901  # up the tree
+        return found
+
+    newly = [
+        loop for loop, old in zip(after, before, strict=True) if loop.stiffness is not None and old.stiffness is None
+    ]
+    loose = touched(newly) - touched([loop for loop in after if loop.stiffness is None])
+    return tuple(replace(joint, free=True) if joint.name in loose else joint for joint in joints)
+
+
+def _with_sliders(mechanism: Mechanism) -> Mechanism:
+    """Return a mechanism whose soft hands are sliders with springs, in three directions, between arm and grip."""
+    joints, loops = list(mechanism.joints), []
+    for loop in mechanism.loops:
+        if loop.stiffness is None or loop.point is None:
+            loops.append(loop)
+            continue
+        parent = loop.joint
+        for k, axis in enumerate("xyz"):
+            unit = tuple(float(i == k) for i in range(3))
+            name = f"{loop.name} {axis}"
+            joints.append(
+                JointPlan(
+                    name,
+                    parent,
+                    loop.point,
+                    Direction(vector=(unit[0], unit[1], unit[2])),
+                    slides=True,
+                    stiffness=loop.stiffness,
+                    damping=loop.damping,
+                )
+            )
+            parent = name
+        loops.append(replace(loop, joint=parent, stiffness=None, damping=0.0))
+    return replace(mechanism, joints=tuple(joints), loops=tuple(loops))

@@ -1,0 +1,92 @@
+"""Numbers in words: one way to write a quantity, a speed, a range of speeds."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from singletrack.files.toml_write import unit_text
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+    from singletrack.linear import CriticalSpeeds
+
+__all__ = ["critical_speed_lines", "deviation_text", "quantity_text", "range_text", "speed_text"]
+
+
+def quantity_text(values: Sequence[float], unit: str) -> str:
+    """Return SI numbers for reading, angles in degrees.
+
+    Parameters
+    ----------
+    values : sequence of float
+    unit : str
+        As pint writes it.
+
+    Examples
+    --------
+    >>> quantity_text([1.0, 0.5], "m"), quantity_text([math.pi / 10], "rad"), quantity_text([2.0], "kg*m**2")
+    ('1, 0.5 m', '18 deg', '2 kg*m^2')
+    """
+    numbers = ", ".join(f"{_for_people(value, unit):.6g}" for value in values)
+    return f"{numbers} {unit_text(unit)}".rstrip()
+
+
+def deviation_text(deviation: float | None, unit: str) -> str:
+    """Return a standard deviation beside its quantity, or nothing where there is none.
+
+    Parameters
+    ----------
+    deviation : float or None
+        SI.
+    unit : str
+
+    Examples
+    --------
+    >>> deviation_text(0.00123, "m"), deviation_text(None, "m")
+    ('± 0.0012', '')
+    """
+    return "" if deviation is None else f"± {_for_people(float(deviation), unit):.2g}"
+
+
+def _for_people(value: float, unit: str) -> float:
+    return math.degrees(value) if unit == "rad" else value
+
+
+def speed_text(speed: float, deviation: float | None = None) -> str:
+    """Return a speed in m/s, with its standard deviation if given.
+
+    >>> speed_text(4.2924), speed_text(4.2924, 0.0123)
+    ('4.292 m/s', '4.292 ± 0.012 m/s')
+    """
+    return f"{speed:.3f} m/s" if deviation is None else f"{speed:.3f} ± {deviation:.2g} m/s"
+
+
+def range_text(low: float, high: float) -> str:
+    """Return a range of speeds, from low to high, in m/s; high may be infinite.
+
+    >>> range_text(4.2924, 6.0243), range_text(3.6053, math.inf)
+    ('4.292 to 6.024 m/s', 'above 3.605 m/s')
+    """
+    return f"above {speed_text(low)}" if math.isinf(high) else f"{low:.3f} to {speed_text(high)}"
+
+
+def critical_speed_lines(
+    critical: CriticalSpeeds, deviations: Mapping[str, Sequence[float]] | None = None
+) -> dict[str, str]:
+    """Return critical speeds and stable ranges of a single design: what they are, and the words for it.
+
+    Parameters
+    ----------
+    critical : CriticalSpeeds
+    deviations : mapping of "weave", "capsize" to sequences of float, optional
+        Standard deviations of the speeds in m/s.
+    """
+    lines = {}
+    for mode, speeds in (("weave", critical.weave), ("capsize", critical.capsize)):
+        spreads = (deviations or {}).get(mode, [None] * len(speeds))
+        texts = [speed_text(speed, spread) for speed, spread in zip(speeds, spreads, strict=True)]
+        lines[f"{mode} speed"] = ", ".join(texts) or "never"
+    lines["stable"] = ", ".join(range_text(*bounds) for bounds in critical.stable_ranges) or "never"
+    return lines
