@@ -3,13 +3,16 @@ PYTHON ?= python3
 VENV ?= .venv
 BIN := $(VENV)/bin
 
-.PHONY: reproduce test check format benchmark setup setup-dev clean
+.PHONY: reproduce test fuzz check format benchmark setup setup-dev clean
 
 reproduce: setup
 	$(BIN)/singletrack reproduce
 
 test: setup-dev check
 	$(BIN)/python -m pytest -n auto
+
+fuzz: setup-dev
+	$(BIN)/python tests/fuzz/run.py --count 6000
 
 check: setup-dev
 	$(BIN)/ruff check .

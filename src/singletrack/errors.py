@@ -19,9 +19,14 @@ __all__ = [
     "PostureError",
     "SingletrackError",
     "nearest",
+    "shown",
     "unknown",
     "unknown_name",
 ]
+
+
+#: Errors that one message tells; whoever made this many has made one mistake, not many.
+_MOST_TOLD = 8
 
 
 class SingletrackError(ValueError):
@@ -98,7 +103,8 @@ class SingletrackError(ValueError):
         for part in self.parts:
             told.append(f"{part.place}: {part.reason}" if part.place != before and part.place else part.reason)
             before = part.place
-        return "; ".join(told)
+        more = [f"and {len(told) - _MOST_TOLD} more"] if len(told) > _MOST_TOLD else []
+        return "; ".join([*told[:_MOST_TOLD], *more])
 
     def of(self, parameter: str) -> SingletrackError:
         """Return an error about a value as one about the parameter that was to have it.
@@ -186,6 +192,30 @@ class OddityWarning(UserWarning):
 _MOST_LISTED = 12
 
 
+def shown(found: object, longest: int = 60) -> str:
+    """Return what was found as a message shows it: never long, whatever it is.
+
+    Parameters
+    ----------
+    found : object
+    longest : int
+        Characters to show.
+
+    Examples
+    --------
+    >>> shown(list(range(100)), 12), shown(16**10_000)
+    ('[0, 1, 2, 3,...', 'a number of 12042 digits')
+    """
+    try:
+        text = repr(found)
+    except ValueError:  # Python's limit on the digits of whole numbers
+        digits = found.bit_length() * 30103 // 100000 + 1 if isinstance(found, int) else "too many"
+        return f"a number of {digits} digits"
+    except RecursionError:
+        return "something nested too deeply"
+    return text if len(text) <= longest else f"{text[:longest]}..."
+
+
 def nearest(name: str, known: Iterable[str]) -> str:
     """Return a sentence part that offers the nearest known name, or nothing.
 
@@ -194,6 +224,7 @@ def nearest(name: str, known: Iterable[str]) -> str:
     >>> nearest("xyz", ["trail", "wheel_base"])
     ''
     """
+    name = name[:80]  # the comparison takes the product of both lengths
     by_lower = {other.lower(): other for other in known}
     close = difflib.get_close_matches(name.lower(), by_lower, n=1, cutoff=0.6)
     return f"; did you mean {by_lower[close[0]]}?" if close else ""

@@ -260,6 +260,7 @@ def test_the_peers_rigid_rider_is_read(shared_data):
         ("yB = 0.0", "yB = 0.1", "line 3: yB = 0.1, must be 0"),
         ("IBxz = -1.9", "IBxz = -9.9", "line 6: IBxz = -9.9 kg*m^2 is no body's"),
         ("xB = 0.3\n", "", "the rigid rider lacks xB"),
+        ("IByy = 8.1", "IByy = 1.1", "line 7: IByy = 1.1 kg*m^2 is no body's"),
         ("xB = 0.3", "w = 0.3", "unknown symbol of a rigid rider 'w'"),
     ],
 )

@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING
 from singletrack.errors import InputError
 from singletrack.files.format import Format
 from singletrack.files.text_lines import read_values
-from singletrack.mechanics.rigid import PlanarBody
+from singletrack.mechanics.rigid import PlanarBody, principal_in_plane
+from singletrack.parameters.bicycle import FLATNESS_TOLERANCE
 
 if TYPE_CHECKING:
     from singletrack.files.format import Clues
@@ -15,7 +16,8 @@ if TYPE_CHECKING:
 
 __all__ = ["FORMAT", "read_rigid_rider"]
 
-_LARGEST = 1e6
+#: A rider and what he sits on stay well within what a bicycle may weigh.
+_LARGEST = {"m": 500.0, "I": 1e4, "x": 10.0, "z": 10.0}
 _SYMBOLS = ("mB", "xB", "yB", "zB", "IBxx", "IByy", "IBzz", "IBxz")
 
 
@@ -51,15 +53,25 @@ def read_rigid_rider(text: str, where: str) -> PlanarBody:
     values = given.values()
     given.require_equal({"yB": 0.0})
     for name in ("mB", "IBxx", "IByy", "IBzz"):
-        if not 0 < values[name] < _LARGEST:
+        if not values[name] > 0:
             raise _wrong(given, name, f"{values[name]:g}, must be greater than zero")
-    for name in ("xB", "zB", "IBxz"):
-        if not abs(values[name]) < _LARGEST:
-            raise _wrong(given, name, f"{values[name]:g}, must be less than {_LARGEST:g}")
+    for name, value in values.items():
+        if name != "yB" and not abs(value) < _LARGEST[name[0]]:
+            raise _wrong(given, name, f"{value:g}, must be less than {_LARGEST[name[0]]:g}")
     if values["zB"] >= 0:
         raise _wrong(given, "zB", f"{values['zB']:g} m, must be less than zero (z points down)")
     if values["IBxz"] ** 2 >= values["IBxx"] * values["IBzz"]:
         raise _wrong(given, "IBxz", f"{values['IBxz']:g} kg*m^2 is no body's: its square must be less than IBxx IBzz")
+    larger, smaller, _ = principal_in_plane(values["IBxx"], values["IBzz"], values["IBxz"])
+    slack = 1 + FLATNESS_TOLERANCE
+    if values["IByy"] > slack * (larger + smaller) or larger > slack * (values["IByy"] + smaller):
+        moments = f"({smaller:.6g}, {values['IByy']:.6g}, {larger:.6g} kg*m^2)"
+        raise _wrong(
+            given,
+            "IByy",
+            f"{values['IByy']:g} kg*m^2 is no body's: of the principal moments {moments} none may exceed the sum "
+            f"of the other two by more than {FLATNESS_TOLERANCE:.0%}",
+        )
     return PlanarBody(*(values[name] for name in ("mB", "xB", "zB", "IBxx", "IByy", "IBzz", "IBxz")))
 
 

@@ -7,7 +7,7 @@ import tomllib
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
-from singletrack.errors import InputError, SingletrackError, unknown_name
+from singletrack.errors import InputError, SingletrackError, shown, unknown_name
 from singletrack.files.toml_keys import line_of_deep_key, place_of, place_of_any
 from singletrack.parameters.hints import unknown_parameter
 from singletrack.parameters.record import Record
@@ -97,7 +97,7 @@ def _checked_header(cls: type[R], document: Mapping[str, object], file: _File) -
             place = "; parameters go under [parameters]" if name in cls.descriptions() else ""
             raise InputError(f"{file.place(name)}: {unknown_name('entry', name, allowed)}{place}")
     if document.get("kind", cls.kind) != cls.kind:
-        found = repr(document["kind"])[:60]
+        found = shown(document["kind"])
         raise InputError(f"{file.place('kind')}: is a {found} file, must be a {cls.kind}")
     parameters = document.get("parameters")
     if not isinstance(parameters, dict):
@@ -106,7 +106,7 @@ def _checked_header(cls: type[R], document: Mapping[str, object], file: _File) -
         )
     for name in _TEXTS:
         if not isinstance(document.get(name, ""), str):
-            raise InputError(f"{file.place(name)}: {name} = {repr(document[name])[:60]}, must be text")
+            raise InputError(f"{file.place(name)}: {name} = {shown(document[name])}, must be text")
     return parameters
 
 

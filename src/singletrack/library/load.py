@@ -7,7 +7,7 @@ from importlib import resources
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from singletrack.errors import InputError, SingletrackError, unknown_name
+from singletrack.errors import InputError, SingletrackError, shown, unknown_name
 from singletrack.files.registry import read_any, read_bicycle, read_rider
 from singletrack.files.source import LARGEST_PARAMETERS, is_there, read_text
 from singletrack.files.yeadon import read_configuration, read_yeadon
@@ -103,7 +103,7 @@ def load_any(name_or_path: str | Path, configuration: str | Path | None = None) 
 def _text(name_or_path: str | Path, *kinds: str) -> tuple[str, str]:
     """Return the text of a shipped thing or a file, and what to call it in messages."""
     if not isinstance(name_or_path, str | Path):
-        raise InputError(f"{' or '.join(kinds)} {name_or_path!r}: must be a name or a path")
+        raise InputError(f"{' or '.join(kinds)} {shown(name_or_path)}: must be a name or a path")
     known = {name: file for kind in kinds for name, file in shipped(kind).items()}
     if isinstance(name_or_path, str) and name_or_path in known:
         return known[name_or_path].read_text(encoding="utf-8"), f"{name_or_path}.toml"

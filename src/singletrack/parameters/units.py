@@ -10,7 +10,7 @@ import re
 from dataclasses import dataclass
 from typing import Any
 
-from singletrack.errors import InputError
+from singletrack.errors import InputError, shown
 
 __all__ = ["Quantity", "parse_quantity", "unit_registry"]
 
@@ -91,7 +91,7 @@ def parse_quantity(found: object, unit: str) -> Quantity:
     singletrack.errors.InputError: '5 kg' has a unit that is no length; allowed: a number in m, or one with ...
     """
     if isinstance(found, bool) or not isinstance(found, str | int | float):
-        raise _refusal(found, f"{found!r} is not a number", unit)
+        raise _refusal(found, f"{shown(found)} is not a number", unit)
     if not isinstance(found, str):
         return Quantity(_to_float(found, unit))
     match = _QUANTITY.fullmatch(found.strip()) if len(found) <= _LONGEST else None
@@ -116,7 +116,8 @@ def _to_float(found: float, unit: str) -> float:
     try:
         return float(found)
     except OverflowError:
-        raise _refusal(found, f"a whole number of {len(str(found))} digits is too large", unit) from None
+        digits = int(found).bit_length() * 30103 // 100000 + 1
+        raise _refusal(found, f"a whole number of {digits} digits is too large", unit) from None
 
 
 def _scaled(value: float, factor: float) -> float:
