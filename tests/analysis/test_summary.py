@@ -10,11 +10,13 @@ import numpy as np
 import pytest
 
 import singletrack.closed_form
-from singletrack import InputError, coefficients, load_bicycle, load_rider
+from singletrack import coefficients, load_bicycle, load_rider
 from singletrack.analysis.outline import outline
-from singletrack.analysis.summary import all_oddities, derived, results
+from singletrack.analysis.summary import derived, results
+from singletrack.body.oddities import frame_oddities
+from singletrack.body.reach import seat_oddities
 from singletrack.commands import show
-from singletrack.commands.model import ModelOptions
+from singletrack.commands.model_options import ModelOptions
 from singletrack.present.sketch import side_view
 
 
@@ -93,13 +95,12 @@ def test_show_computes_the_coefficients_once(monkeypatch, capsys):
 
 def test_oddities_of_seat_and_frame():
     stratos, rider = load_bicycle("stratos"), load_rider("rider-a")
-    assert all_oddities(stratos, rider.on(stratos)) == ()
-    (odd,) = (oddity for oddity in all_oddities(stratos.replace(trail=1.2)) if "fork_length" in oddity.parameter)
+    assert frame_oddities(stratos) == seat_oddities(stratos, rider.on(stratos)) == ()
+    (odd,) = frame_oddities(stratos.replace(trail=1.2))
+    assert odd.parameter == "fork_length"
     assert "no rider can be seated" in odd.text
     short = rider.on(stratos).replace(lower_arm_length=0.993 * rider.lower_arm_length)
-    assert any("barely within reach" in oddity.text for oddity in all_oddities(stratos, short))
-    with pytest.raises(InputError, match="must be a bicycle to seat"):
-        all_oddities(rider, rider)
+    assert any("barely within reach" in oddity.text for oddity in seat_oddities(stratos, short))
 
 
 @pytest.mark.parametrize(

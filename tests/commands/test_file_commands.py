@@ -10,7 +10,7 @@ import pytest
 
 from singletrack import InputError, coefficients, load_bicycle, load_rider
 from singletrack.commands import convert, measure, period, schema, show, template
-from singletrack.commands.model import ModelOptions
+from singletrack.commands.model_options import ModelOptions
 from singletrack.errors import OddityWarning
 
 MUTATIONS = runpy.run_path(str(Path(__file__).parents[1] / "files" / "mutations.py"), run_name="m")

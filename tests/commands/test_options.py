@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+import json
 import subprocess
 import sys
 
+import numpy as np
 import pytest
 
+from singletrack import coefficients, load_bicycle, load_rider
 from singletrack.commands import app, door
-from singletrack.posture import POSTURES, SHOULDERS
+from singletrack.library import shipped
+from singletrack.posture import ARMS, POSTURES, SHOULDERS
 
 MODEL_COMMANDS = ["coefficients", "eigenvalues", "critical-speeds", "show"]
 
@@ -31,9 +35,9 @@ def run(monkeypatch, capsys):
 @pytest.mark.parametrize("command", MODEL_COMMANDS)
 def test_every_command_that_makes_a_model_has_the_same_options(command, run):
     _, printed, _ = run(command, "--help")
-    for option in ("--rider", "--posture", "--shoulder", "--engine", "--set"):
-        assert option in printed
-    for name in (*POSTURES, *SHOULDERS):
+    for option in ("rider", "posture", "shoulder", "arms", "torso-lean", "spring", "damper", "engine", "set"):
+        assert f"--{option}" in printed
+    for name in (*POSTURES, *SHOULDERS, *ARMS):
         assert name in printed
 
 
@@ -49,6 +53,54 @@ def test_a_name_that_is_set_twice_is_refused_by_name(command, run):
     code, out, err = run(command, "stratos", "--set", "trail=0.06", "--set", " trail = 0.05 ")
     assert (code, out) == (2, "")
     assert err == "singletrack: --set trail: is given twice, as '0.06' and as '0.05'\n"
+
+
+def test_arms_torso_springs_and_dampers(run):
+    seat = ["--rider", "rider-a", "--posture", "leaned", "--arms", "bent", "--torso-lean"]
+    sprung = ["--spring", "torso lean=100 N*m/rad", "--spring", "steer=1 N*m/deg", "--damper", "torso lean=10"]
+    _, out, _ = run("coefficients", "stratos", *seat, *sprung, "--json")
+    found = json.loads(out)
+    springs = {"torso lean": 100.0, "steer": np.rad2deg(1.0)}
+    model = coefficients(
+        *(load_bicycle("stratos"), load_rider("rider-a"), "leaned"),
+        arms="bent", torso_lean=True, springs=springs, dampers={"torso lean": 10.0},
+    )  # fmt: skip
+    assert tuple(found["coordinates"]) == model.coordinates == ("lean", "steer", "torso lean")
+    for name in ("M", "C0", "C1", "S0", "K0", "K2", "B"):
+        np.testing.assert_array_equal(found[name], getattr(model, name))
+    _, out, _ = run("coefficients", "stratos", *seat, *sprung)
+    assert "leaned, arms bent, torso lean, spring at torso lean" in out
+    assert "S0 springs" in out
+
+
+def test_a_mechanism_from_a_file(run, tmp_path):
+    path = tmp_path / "mine.toml"
+    path.write_text(shipped("posture")["upright-axial"].read_text(encoding="utf-8"), encoding="utf-8")
+    outputs = [
+        run("coefficients", "browser", "--rider", "rider-a", "--posture", posture, "--json")
+        for posture in ("upright", str(path))
+    ]
+    assert outputs[0] == outputs[1]
+
+
+@pytest.mark.parametrize(
+    ("options", "says"),
+    [
+        (["--spring", "steer"], "--spring 'steer': found no value"),
+        (["--spring", "steer=1 kg"], "--spring steer: '1 kg'"),
+        (["--damper", "steer=1", "--damper", "steer=2"], "--damper steer: is given twice"),
+        (["--spring", "torso lean=-1"], "spring at torso lean"),
+        (["--arms", "crossed"], "unknown arms 'crossed'"),
+        (["--spring", "knee=1"], "knee"),
+        (["--posture", "sitting"], "sitting"),
+        (["--posture", "rigid", "--arms", "bent"], "arms"),
+    ],
+)
+def test_wrong_options_are_one_sentence(options, says, run):
+    code, out, err = run("coefficients", "stratos", "--rider", "rider-a", "--posture", "leaned", *options)
+    assert (code, out) == (2, "")
+    assert err.count("\n") == 1
+    assert says in err
 
 
 @pytest.mark.parametrize("command", MODEL_COMMANDS)

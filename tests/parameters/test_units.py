@@ -63,6 +63,13 @@ def test_uncertainty(text):
         (None, "m", "not a number"),
         ("1 +/- -2 m", "m", "standard deviation"),
         (10**400, "m", "too large"),
+        ("1e400", "m", "'1e400' is too large"),
+        ("1e308 km", "m", "'1e308 km' is too large"),
+        ("1 +/- 1e400 m", "m", "standard deviation"),
+        ("৪.৪ m", "m", "digits other than 0 to 9"),
+        ("1.٤ m", "m", "digits other than 0 to 9"),
+        ("１ m", "m", "digits other than 0 to 9"),
+        ("1_000 mm", "m", "unknown unit"),
     ],
 )
 def test_refusals(text, unit, reason):

@@ -42,6 +42,10 @@ class Placed:
         turn = rotation(axis, angle)
         return Placed(self.turn * turn, self.turn * (point - turn * point) + self.shift)
 
+    def then_along(self, axis, distance):
+        """First slide along an axis fixed in the undisplaced body, then displace."""
+        return Placed(self.turn, self.turn * (distance * axis) + self.shift)
+
 
 class ExactRider:
     """The moving segments of a seated rider, displaced exactly for a steer angle, relative to the rear frame."""
@@ -51,36 +55,56 @@ class ExactRider:
         self.foot = vec([bicycle.wheel_base + bicycle.trail, 0, 0])
         self.axis = mp.matrix([mp.sin(self.tilt), 0, mp.cos(self.tilt)])
         self.posture = posture
-        self.joints = [(j.name, j.parent, vec(j.point), vec(j.axis)) for j in posture.joints]
+        self.joints = [(j.name, j.parent, vec(j.point), vec(j.axis), j.slides) for j in posture.joints]
+        self.free = [k for k, joint in enumerate(posture.joints) if joint.free]
 
     def front(self, steer):
         return Placed().then_about(self.axis, self.foot, steer)
 
     def links(self, angles):
         links = {"": Placed()}
-        for (name, parent, point, axis), angle in zip(self.joints, angles, strict=True):
-            links[name] = links[parent].then_about(axis / mp.norm(axis), point, angle)
+        for (name, parent, point, axis, slides), angle in zip(self.joints, angles, strict=True):
+            unit = axis / mp.norm(axis)
+            moved = links[parent].then_along(unit, angle) if slides else links[parent].then_about(unit, point, angle)
+            links[name] = moved
         return links
 
     def gap(self, angles, steer):
-        links, front = self.links(angles), self.front(steer)
-        return [
-            component
-            for loop in self.posture.loops
-            for component in links[loop.joint](vec(loop.point)) - front(vec(loop.point))
-        ]
+        links = self.links(angles) | {"handlebar": self.front(steer)}
+        gaps = []
+        for loop in self.posture.loops:
+            near, far = links[loop.joint], links[loop.to]
+            if loop.directions is None:
+                gaps += list(near(vec(loop.point)) - far(vec(loop.point)))
+            else:
+                one, other = (vec(direction) for direction in loop.directions)
+                # Directions in double precision are perpendicular to 16 digits only: they keep the angle they have.
+                gaps.append((near.turn * one).T * (far.turn * other) - one.T * other)
+        return [gap[0] if isinstance(gap, mp.matrix) else gap for gap in gaps]
 
-    def angles(self, steer):
-        """Joint angles that keep the hands on the grips (Newton, to the last digit)."""
-        if not self.joints:
-            return []
-        function = lambda *angles: self.gap(angles, steer)  # noqa: E731  # mpmath counts the arguments
-        start = mp.zeros(len(self.joints), 1)
-        return list(mp.findroot(function, list(start), tol=mp.mpf(10) ** -60, maxsteps=40))
+    def angles(self, steer, *free):
+        """Joint angles that keep the loops closed (Newton, to the last digit), with the free ones as given."""
+        dependent = [k for k in range(len(self.joints)) if k not in self.free]
+        angles = [mp.mpf(0)] * len(self.joints)
+        for k, angle in zip(self.free, free or [mp.mpf(0)] * len(self.free), strict=True):
+            angles[k] = angle
+        if not dependent:
+            return angles
 
-    def placed(self, steer):
+        def function(*found):
+            for k, angle in zip(dependent, found, strict=True):
+                angles[k] = angle
+            return self.gap(angles, steer)
+
+        start = mp.zeros(len(dependent), 1)
+        found = mp.findroot(function, list(start), tol=mp.mpf(10) ** -60, maxsteps=40)
+        for k, angle in zip(dependent, list(found) if len(dependent) > 1 else [found], strict=True):
+            angles[k] = angle[0] if isinstance(angle, mp.matrix) else angle
+        return angles
+
+    def placed(self, steer, *free):
         """The displacement of every segment."""
-        links = self.links(self.angles(steer))
+        links = self.links(self.angles(steer, *free))
         carried = self.posture.carried_by
         return {name: links[carried.get(name, "")] for name in self.posture.segments}
 
@@ -118,7 +142,7 @@ class ExactBicycle:
         axle = frame.turn * (part.turn * Y)
         return frame(part(hub))[2] + mp.mpf(float(radius)) * mp.sqrt(1 - axle[2] ** 2)
 
-    def height(self, lean, steer):
+    def height(self, lean, steer, *free):
         """Sum of mass times height above the ground."""
         b = self.bicycle
         frame, front = self.placement(lean, steer)
@@ -129,6 +153,53 @@ class ExactBicycle:
             (b.front_wheel_mass, front, self.front_hub),
         ]
         if self.rider is not None:
-            placed = self.rider.placed(steer)
+            placed = self.rider.placed(steer, *free)
             masses += [(s.mass, placed[n], vec(s.centre)) for n, s in self.rider.posture.segments.items()]
         return -sum(mp.mpf(float(mass)) * frame(part(centre))[2] for mass, part, centre in masses)
+
+    def yaw_rate(self):
+        """Yaw for a unit of steer at rest: the material of the front wheel at the ground must not slip sideways."""
+        contact = vec([self.bicycle.wheel_base, 0, 0])
+        return -cross(self.axis, contact - self.foot)[1] / contact[0]
+
+    def velocities(self, rates):
+        """Mass, inertia, velocity and spin of every body at rest for rates of lean, steer and free joints."""
+        h = mp.mpf(10) ** -18
+
+        def at(sign):
+            lean, steer, *free = (sign * h * mp.mpf(rate) for rate in rates)
+            turn = rotation(Z, self.yaw_rate() * steer) * rotation(X, lean)
+            front = Placed().then_about(self.axis, self.foot, steer)
+            placed = self.rider.placed(steer, *free) if self.rider is not None else {}
+            return Placed(turn), {"rear": Placed(), "front": front} | placed
+
+        ahead, behind = at(1), at(-1)
+        for mass, where, centre, inertia in self.bodies():
+            move, turn = (
+                [frame(part[where](centre)) for frame, part in (ahead, behind)],
+                [frame.turn * part[where].turn for frame, part in (ahead, behind)],
+            )
+            spin = (turn[0] - turn[1]) / (2 * h)
+            yield mass, inertia, (move[0] - move[1]) / (2 * h), mp.matrix([spin[2, 1], spin[0, 2], spin[1, 0]])
+
+    def bodies(self):
+        """Mass, what it moves with, centre and central inertia of every body."""
+        b = self.bicycle
+        for end, x in (("rear", 0.0), ("front", b.wheel_base)):
+            radius = getattr(b, f"{end}_wheel_radius")
+            xx, yy = (float(getattr(b, f"{end}_wheel_inertia_{axes}")) for axes in ("xx", "yy"))
+            yield getattr(b, f"{end}_wheel_mass"), end, vec([x, 0, -radius]), mp.diag([xx, yy, xx])
+            xx, yy, zz, xz = (float(getattr(b, f"{end}_frame_inertia_{axes}")) for axes in ("xx", "yy", "zz", "xz"))
+            inertia = mp.matrix([[xx, 0, xz], [0, yy, 0], [xz, 0, zz]])
+            centre = vec([getattr(b, f"{end}_frame_x"), 0, getattr(b, f"{end}_frame_z")])
+            yield getattr(b, f"{end}_frame_mass"), end, centre, inertia
+        if self.rider is not None:
+            for name, s in self.rider.posture.segments.items():
+                yield s.mass, name, vec(s.centre), mp.matrix([[float(v) for v in row] for row in s.inertia])
+
+    def twice_kinetic_energy(self, rates):
+        """Twice the kinetic energy at zero speed for rates of lean, steer and free joints."""
+        total = mp.mpf(0)
+        for mass, inertia, velocity, spin in self.velocities(rates):
+            total += mp.mpf(float(mass)) * (velocity.T * velocity)[0] + (spin.T * inertia * spin)[0]
+        return total

@@ -1,4 +1,4 @@
-"""All that follows from a bicycle or a rider, as data: derived quantities, results with deviations, what looks odd."""
+"""All that follows from a bicycle or a rider, as data: derived quantities, results with deviations."""
 
 from __future__ import annotations
 
@@ -9,15 +9,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from singletrack.analysis.uncertainty import linear_uncertainty
-from singletrack.body.oddities import frame_oddities
-from singletrack.body.reach import seat_oddities
-from singletrack.errors import InputError
 from singletrack.linear import CriticalSpeeds, critical_speeds
 from singletrack.mechanics.rigid import PlanarBody, combine, principal_in_plane
 from singletrack.model import LinearModel
 from singletrack.parameters import Bicycle, Rider
 from singletrack.parameters.bodies import bicycle_bodies
-from singletrack.parameters.plausibility import Oddity, oddities
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -25,7 +21,7 @@ if TYPE_CHECKING:
     from singletrack.measuring.measurement import Measurement
     from singletrack.posture import Options
 
-__all__ = ["Quantity", "Results", "all_oddities", "derived", "measured_speeds", "results"]
+__all__ = ["Quantity", "Results", "derived", "measured_speeds", "results"]
 
 
 @dataclass(frozen=True)
@@ -160,33 +156,3 @@ def measured_speeds(found: Measurement) -> Results:
     speeds = spread.critical_speeds()
     deviations = {"weave": speeds.weave_deviation.tolist(), "capsize": speeds.capsize_deviation.tolist()}
     return Results(spread.model, critical_speeds(spread.model), spread.matrices(), deviations)
-
-
-def all_oddities(record: Bicycle | Rider, rider: Rider | None = None) -> tuple[Oddity, ...]:
-    """Return what looks odd about a bicycle or a rider, and about a rider's seat on a bicycle.
-
-    Parameters
-    ----------
-    record : Bicycle or Rider
-        A single design.
-    rider : Rider, optional
-        Seated on the bicycle.
-
-    Raises
-    ------
-    InputError
-        For a batch, or a rider on a rider.
-    PostureError
-        If the rider's limbs do not reach at all.
-
-    Examples
-    --------
-    >>> from singletrack import load_bicycle
-    >>> [oddity.parameter for oddity in all_oddities(load_bicycle("stratos").replace(trail=-0.05))]
-    ['trail']
-    """
-    if rider is None:
-        return (*oddities(record), *(frame_oddities(record) if isinstance(record, Bicycle) else ()))
-    if not isinstance(record, Bicycle):
-        raise InputError(f"{record.name}: is a rider, must be a bicycle to seat {rider.name} on")
-    return (*oddities(record, rider), *seat_oddities(record, rider))

@@ -5,8 +5,10 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from singletrack.arrays import Array, as_arrays, stack, vector
+from singletrack.parameters.bodies import bodies_of_values
 
 if TYPE_CHECKING:
+    from singletrack.mechanics import PlanarBody
     from singletrack.parameters import Bicycle
 
 __all__ = ["Matrices", "matrix2", "whipple_matrices"]
@@ -64,7 +66,9 @@ def whipple_matrices(bicycle: Bicycle) -> Matrices:
     xp, arrays = as_arrays(*values.values())
     b = dict(zip(values, arrays, strict=True))
     sin, cos = xp.sin(b["steer_axis_tilt"]), xp.cos(b["steer_axis_tilt"])
-    total, front = _total(b), _front_assembly(b)
+    rear_frame, front_frame, rear_wheel, front_wheel = bodies_of_values(b).values()
+    total = _taken_together([rear_wheel, rear_frame, front_frame, front_wheel])
+    front = _about_centre([front_frame, front_wheel])
     # Distance of the front assembly's centre ahead of the steer axis, and its moments about that axis.
     ahead = (front.x - b["wheel_base"] - b["trail"]) * cos - front.z * sin
     steer_steer = front.mass * ahead**2 + front.xx * sin**2 + 2 * front.xz * sin * cos + front.zz * cos**2
@@ -98,50 +102,29 @@ def _spin(xp: Any, b: dict[str, Any], end: str) -> Array:
     return b[f"{end}_wheel_inertia_yy"] / xp.where(radius == 0, 1.0, radius)
 
 
-def _total(b: dict[str, Any]) -> _System:
-    """Return mass and centre of the whole bicycle, inertia about the rear contact."""
-    rear_radius, front_radius, base = b["rear_wheel_radius"], b["front_wheel_radius"], b["wheel_base"]
-    bodies = [
-        (b["rear_wheel_mass"], 0.0 * base, -rear_radius, *_wheel_inertia(b, "rear")),
-        (b["rear_frame_mass"], b["rear_frame_x"], b["rear_frame_z"], *_frame_inertia(b, "rear")),
-        (b["front_frame_mass"], b["front_frame_x"], b["front_frame_z"], *_frame_inertia(b, "front")),
-        (b["front_wheel_mass"], base, -front_radius, *_wheel_inertia(b, "front")),
-    ]
-    mass = sum(m for m, *_ in bodies)
+def _taken_together(bodies: list[PlanarBody]) -> _System:
+    """Return mass and centre of bodies and their inertia about the rear contact."""
+    mass = sum(body.mass for body in bodies)
     return _System(
         mass,
-        sum(m * x for m, x, *_ in bodies) / mass,
-        sum(m * z for m, _, z, *_ in bodies) / mass,
-        sum(xx + m * z**2 for m, _, z, xx, _, _ in bodies),
-        sum(xz - m * x * z for m, x, z, _, xz, _ in bodies),
-        sum(zz + m * x**2 for m, x, _, _, _, zz in bodies),
+        sum(body.mass * body.x for body in bodies) / mass,
+        sum(body.mass * body.z for body in bodies) / mass,
+        sum(body.xx + body.mass * body.z**2 for body in bodies),
+        sum(body.xz - body.mass * body.x * body.z for body in bodies),
+        sum(body.zz + body.mass * body.x**2 for body in bodies),
     )
 
 
-def _front_assembly(b: dict[str, Any]) -> _System:
-    """Return mass, centre and central inertia of front frame and front wheel."""
-    frame, wheel = b["front_frame_mass"], b["front_wheel_mass"]
-    mass = frame + wheel
-    x = (frame * b["front_frame_x"] + wheel * b["wheel_base"]) / mass
-    z = (frame * b["front_frame_z"] - wheel * b["front_wheel_radius"]) / mass
-    dx, dz = b["front_frame_x"] - x, b["front_frame_z"] - z
-    wheel_dx, wheel_dz = b["wheel_base"] - x, -b["front_wheel_radius"] - z
-    frame_xx, frame_xz, frame_zz = _frame_inertia(b, "front")
-    wheel_xx, _, wheel_zz = _wheel_inertia(b, "front")
+def _about_centre(bodies: list[PlanarBody]) -> _System:
+    """Return mass and centre of bodies and their inertia about their own centre."""
+    mass = sum(body.mass for body in bodies)
+    x = sum(body.mass * body.x for body in bodies) / mass
+    z = sum(body.mass * body.z for body in bodies) / mass
     return _System(
         mass,
         x,
         z,
-        frame_xx + wheel_xx + frame * dz**2 + wheel * wheel_dz**2,
-        frame_xz - frame * dx * dz - wheel * wheel_dx * wheel_dz,
-        frame_zz + wheel_zz + frame * dx**2 + wheel * wheel_dx**2,
+        sum([*(body.xx for body in bodies), *(body.mass * (body.z - z) ** 2 for body in bodies)]),
+        sum([*(body.xz for body in bodies), *(-body.mass * (body.x - x) * (body.z - z) for body in bodies)]),
+        sum([*(body.zz for body in bodies), *(body.mass * (body.x - x) ** 2 for body in bodies)]),
     )
-
-
-def _frame_inertia(b: dict[str, Any], end: str) -> tuple[Array, Array, Array]:
-    return tuple(b[f"{end}_frame_inertia_{axes}"] for axes in ("xx", "xz", "zz"))
-
-
-def _wheel_inertia(b: dict[str, Any], end: str) -> tuple[Array, Array, Array]:
-    xx = b[f"{end}_wheel_inertia_xx"]
-    return xx, 0.0 * xx, xx

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from singletrack.commands.model import ModelOptions, model_from
+from singletrack.commands.model import model_from
+from singletrack.commands.model_options import ModelOptions
 from singletrack.commands.options import BicycleArgument, JsonOption
 from singletrack.commands.printing import print_json, show
 from singletrack.present.tables import critical_speeds_text

@@ -55,7 +55,12 @@ class CentreFit(StrEnum):
 BicycleArgument = Annotated[str, typer.Argument(metavar="BICYCLE", help="A shipped name or a file.")]
 ThingArgument = Annotated[str, typer.Argument(metavar="NAME", help="A shipped name or a file in any format.")]
 SpeedsOption = Annotated[
-    str, typer.Option("--speeds", metavar="START:STOP:COUNT", help="Forward speeds in m/s, or one value.")
+    str,
+    typer.Option(
+        "--speeds",
+        metavar="SPEEDS",
+        help='START:STOP:COUNT, a list or one value, in m/s or with a unit: "0:10:11", "4, 6, 8", "5 km/h:40 km/h:8".',
+    ),
 ]
 JsonOption = Annotated[bool, typer.Option("--json", help="Print JSON in full precision.")]
 OutputFileOption = Annotated[Path | None, typer.Option("--output", metavar="FILE", help="Write here instead.")]

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import io
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
@@ -15,9 +14,7 @@ from singletrack.files.source import read_text
 from singletrack.measuring.oscillation import fit_oscillation
 from singletrack.output import check_writable
 from singletrack.present.oscillation import oscillation_figure
-
-if TYPE_CHECKING:
-    from singletrack.measuring.oscillation import Oscillation
+from singletrack.present.style import figure_bytes
 
 __all__ = ["run"]
 
@@ -41,10 +38,5 @@ def run(
     show(f"decay: {fit.decay:.4g} ± {fit.decay_deviation:.2g} 1/s")
     show(f"for the measurements' file: {fit.natural_period!r}+/-{fit.period_deviation!r}")
     if plot is not None:
-        deliver(_drawn(fit, file.stem, plot), plot)
-
-
-def _drawn(fit: Oscillation, title: str, plot: Path) -> bytes:
-    content = io.BytesIO()
-    oscillation_figure(fit, title).savefig(content, format=plot.suffix.lower().removeprefix("."))
-    return content.getvalue()
+        figure = oscillation_figure(fit, file.stem)
+        deliver(figure_bytes(figure, plot.suffix.lower().removeprefix(".")), plot)

@@ -5,7 +5,8 @@ from __future__ import annotations
 from singletrack.analysis.outline import outline
 from singletrack.analysis.summary import derived, results
 from singletrack.body.oddities import warn_of_oddities
-from singletrack.commands.model import ModelOptions, model_from
+from singletrack.commands.model import model_from
+from singletrack.commands.model_options import ModelOptions
 from singletrack.commands.options import ThingArgument
 from singletrack.errors import InputError
 from singletrack.library.load import load_any

@@ -13,7 +13,6 @@ import errno
 import os
 import secrets
 import stat
-import tempfile
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -40,8 +39,7 @@ def prepare_folder(folder: Path) -> Path:
     """
     try:
         folder.mkdir(parents=True, exist_ok=True)
-        with tempfile.TemporaryFile(dir=folder):
-            pass
+        _probe(folder)
     except (OSError, ValueError) as error:
         raise InputError(
             f"{folder}: cannot be used for output ({_reason(error)}); must be a folder that can be written to"
@@ -76,8 +74,7 @@ def check_writable(path: str | Path) -> None:
         folder = _target(path).parent
         while not folder.exists() and folder != folder.parent:
             folder = folder.parent  # the nearest folder that is there: the others are made in it
-        with tempfile.TemporaryFile(dir=folder):
-            pass
+        _probe(folder)
     except (OSError, ValueError) as error:  # ValueError: a NUL in the name
         raise _unwritable(path, error) from None
 
@@ -103,8 +100,7 @@ def write_whole(path: str | Path, content: bytes | str) -> None:
     try:
         found = _found(path)
         if found is not None and not stat.S_ISREG(found.st_mode):
-            with path.open("wb", buffering=0) as stream:
-                _write(stream.fileno(), data)
+            _write_into(path, data)
             return
         target = _target(path)
         with _folders(target.parent):
@@ -126,6 +122,13 @@ def sync_folder(folder: str | Path) -> None:
             raise
     finally:
         os.close(handle)
+
+
+def _probe(folder: Path) -> None:
+    """Make an empty file in a folder and take it away again."""
+    name = folder / f".{secrets.token_hex(8)}.new"
+    os.close(os.open(name, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600))
+    name.unlink()
 
 
 def _found(path: Path) -> os.stat_result | None:
@@ -184,6 +187,15 @@ def _replace(target: Path, data: bytes, old: os.stat_result | None) -> None:
         with contextlib.suppress(OSError):
             new.unlink()
         raise
+
+
+def _write_into(path: Path, data: bytes) -> None:
+    """Write to a device or FIFO: there is nothing to replace and nothing to bring to a disk."""
+    handle = os.open(path, os.O_WRONLY | getattr(os, "O_BINARY", 0))
+    try:
+        _write(handle, data)
+    finally:
+        os.close(handle)
 
 
 def _keep_owner(new: Path, old: os.stat_result) -> None:

@@ -22,7 +22,7 @@ _GRIPS = "grips (where they are not level with the stem top, as wide as the shou
 _GEOMETRY = "frame geometry (needed to seat a rider)"
 
 
-@dataclass(frozen=True, kw_only=True, eq=False)
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class Bicycle(Record):
     """A bicycle, SI units, angles in radians, in the frame of Meijaard et al. (2007).
 
@@ -44,6 +44,7 @@ class Bicycle(Record):
     """
 
     kind: ClassVar[str] = "bicycle"
+    in_short: ClassVar[tuple[str, ...]] = ("wheel_base", "trail", "steer_axis_tilt")
 
     wheel_base: Array = parameter("m", "w", "between the wheel contacts", group=_GENERAL)
     trail: Array = parameter("m", "c", "front contact behind the steer axis at the ground", "any", group=_GENERAL)

@@ -7,10 +7,15 @@ from typing import TYPE_CHECKING, Any
 from singletrack.mechanics.rigid import PlanarBody, combine
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from singletrack.arrays import Array
     from singletrack.parameters.bicycle import Bicycle
 
-__all__ = ["bicycle_bodies", "frame_parameters", "with_rigid_rider"]
+__all__ = ["bicycle_bodies", "bodies_of_values", "frame_parameters", "with_rigid_rider"]
 
+_ENDS = ("rear", "front")
+_WHEEL = ("mass", "radius", "inertia_xx", "inertia_yy")
 _FRAME = ("mass", "x", "z", "inertia_xx", "inertia_yy", "inertia_zz", "inertia_xz")
 
 
@@ -28,29 +33,23 @@ def bicycle_bodies(bicycle: Bicycle) -> dict[str, PlanarBody]:
     >>> {name: (body.x, body.z) for name, body in bicycle_bodies(load_bicycle("benchmark")).items()}
     {'rear frame': (0.3, -0.9), 'front frame': (0.9, -0.7), 'rear wheel': (0.0, -0.3), 'front wheel': (1.02, -0.35)}
     """
-    b = bicycle
-    return {
-        "rear frame": PlanarBody(*(getattr(b, f"rear_frame_{part}") for part in _FRAME)),
-        "front frame": PlanarBody(*(getattr(b, f"front_frame_{part}") for part in _FRAME)),
-        "rear wheel": PlanarBody(
-            mass=b.rear_wheel_mass,
-            x=0.0,
-            z=-b.rear_wheel_radius,
-            xx=b.rear_wheel_inertia_xx,
-            yy=b.rear_wheel_inertia_yy,
-            zz=b.rear_wheel_inertia_xx,
-            xz=0.0,
-        ),
-        "front wheel": PlanarBody(
-            mass=b.front_wheel_mass,
-            x=b.wheel_base,
-            z=-b.front_wheel_radius,
-            xx=b.front_wheel_inertia_xx,
-            yy=b.front_wheel_inertia_yy,
-            zz=b.front_wheel_inertia_xx,
-            xz=0.0,
-        ),
-    }
+    return bodies_of_values(bicycle.values())
+
+
+def bodies_of_values(values: Mapping[str, Array]) -> dict[str, PlanarBody]:
+    """Return the four bodies of parameters by name, as kernels have them (see :func:`bicycle_bodies`).
+
+    Parameters
+    ----------
+    values : mapping of str to array, shape (...)
+        The 25 parameters of a bicycle.
+    """
+    frames = {f"{end} frame": PlanarBody(*(values[f"{end}_frame_{part}"] for part in _FRAME)) for end in _ENDS}
+    wheels = {}
+    for end, x in zip(_ENDS, (0.0, values["wheel_base"]), strict=True):
+        mass, radius, across, along = (values[f"{end}_wheel_{part}"] for part in _WHEEL)
+        wheels[f"{end} wheel"] = PlanarBody(mass, x, -radius, xx=across, yy=along, zz=across, xz=0.0)
+    return frames | wheels
 
 
 def frame_parameters(end: str, body: PlanarBody) -> dict[str, Any]:

@@ -11,6 +11,7 @@ from singletrack.arrays import Array, is_concrete
 from singletrack.arrays.faults import Fault, refuse_single
 from singletrack.errors import InputError, SingletrackError
 from singletrack.parameters.description import ALLOWED, Parameter, faults_of_value, parameter
+from singletrack.parameters.display import line_of, table_of
 from singletrack.parameters.hints import unknown_parameter
 from singletrack.parameters.values import FrozenDict, as_parameter
 
@@ -20,7 +21,7 @@ if TYPE_CHECKING:
 __all__ = ["ALLOWED", "Parameter", "Record", "parameter"]
 
 
-@dataclass(frozen=True, kw_only=True, eq=False)
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class Record:
     """Base of the frozen parameter records; every parameter may be a number or an array (a batch of designs).
 
@@ -40,6 +41,8 @@ class Record:
     """
 
     kind: ClassVar[str] = "record"
+    #: The parameters that say most of what it is, for one line at a prompt.
+    in_short: ClassVar[tuple[str, ...]] = ()
 
     name: str = ""
     description: str = ""
@@ -51,6 +54,13 @@ class Record:
         _take_texts(self)
         _take_values(self)
         object.__setattr__(self, "_standing", refuse_single(self.faults(), where=self.name))
+
+    def __repr__(self) -> str:
+        return line_of(self, self.in_short)
+
+    def _repr_html_(self) -> str:
+        """Return all parameters as a table, for notebooks."""
+        return table_of(self)
 
     @property
     def standing_faults(self) -> tuple[Fault, ...]:

@@ -25,7 +25,7 @@ _BODY, _MASS = "body", "mass"
 _TORSO = ("shoulder_to_shoulder", "upper_arm_circumference", "chest_circumference")
 
 
-@dataclass(frozen=True, kw_only=True, eq=False)
+@dataclass(frozen=True, kw_only=True, eq=False, repr=False)
 class Rider(Record):
     """A rider, SI units, angles in radians; the names are those of Table 3 of Schwab and Kooijman.
 
@@ -48,6 +48,7 @@ class Rider(Record):
     """
 
     kind: ClassVar[str] = "rider"
+    in_short: ClassVar[tuple[str, ...]] = ("rider_mass", "torso_length", "forward_lean_angle")
 
     chest_circumference: Array = parameter("m", "cch", "around the chest", group=_BODY)
     forward_lean_angle: Array = parameter(

@@ -8,6 +8,7 @@ from __future__ import annotations
 import functools
 import re
 from dataclasses import dataclass
+from math import isinf
 from typing import Any
 
 from singletrack.errors import InputError, shown
@@ -34,7 +35,8 @@ hertz = 1 / second = Hz
 percent = 0.01 = % = pct
 """
 
-_NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?|[+-]?(?:nan|inf|infinity)"
+# Not \d, which takes digits of all scripts: nobody who reads a file would notice a ৪ among them.
+_NUMBER = r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?|[+-]?(?:nan|inf|infinity)"
 _QUANTITY = re.compile(
     rf"\s*(?P<value>{_NUMBER})\s*(?:(?:\+/-|±|\+-)\s*(?P<deviation>{_NUMBER})\s*)?(?P<unit>[^\d\s+-].*)?",
     re.IGNORECASE | re.ASCII,  # digits and letters of other scripts are no numbers
@@ -94,18 +96,25 @@ def parse_quantity(found: object, unit: str) -> Quantity:
         raise _refusal(found, f"{shown(found)} is not a number", unit)
     if not isinstance(found, str):
         return Quantity(_to_float(found, unit))
+    if _is_foreign(found[:_LONGEST]):
+        raise _refusal(found, f"{found[:60]!r} has digits other than 0 to 9", unit)
     match = _QUANTITY.fullmatch(found.strip()) if len(found) <= _LONGEST else None
     if match is None:
         raise _refusal(found, f"{found[:60]!r} is not a number with an optional unit", unit)
-    value = float(match["value"])
-    deviation = None if match["deviation"] is None else float(match["deviation"])
+    factor = 1.0 if match["unit"] is None else _factor(found, match["unit"].strip(), unit)
+    value = _scaled(float(match["value"]), factor)
+    if isinf(value) and "inf" not in match["value"].lower():
+        raise _refusal(found, f"{found!r} is too large", unit)
+    deviation = None if match["deviation"] is None else _scaled(float(match["deviation"]), factor)
     if deviation is not None and not 0 <= deviation < float("inf"):
         reason = f"{found!r} has a standard deviation that is not a finite number of zero or more"
         raise InputError(reason, found=found, allowed="a standard deviation of zero or more")
-    if match["unit"] is None:
-        return Quantity(value, deviation)
-    factor = _factor(found, match["unit"].strip(), unit)
-    return Quantity(_scaled(value, factor), None if deviation is None else _scaled(deviation, factor))
+    return Quantity(value, deviation)
+
+
+def _is_foreign(text: str) -> bool:
+    """Tell whether a text has digits other than 0 to 9."""
+    return any(character.isdigit() and not character.isascii() and character not in "²³" for character in text)
 
 
 def _refusal(found: object, reason: str, unit: str) -> InputError:

@@ -320,7 +320,7 @@ def _inverse(matrix: Array, posture: Posture, shape: tuple[int, ...]) -> tuple[A
     bad = np.zeros(finite.shape, dtype=bool)
     if suspect.any():
         singular_values = np.linalg.svd(numbers[suspect], compute_uv=False)
-        bad[suspect] = singular_values[..., -1] < _SINGULAR * singular_values[..., 0]
+        bad[suspect] = singular_values[..., -1] <= _SINGULAR * singular_values[..., 0]
     faults = refuse_single([_singular(posture, numbers, bad, shape)]) if bad.any() else ()
     if is_jax(matrix) or suspect.any():
         inverse = xp.linalg.inv(xp.where(xp.asarray(bad)[..., None, None], xp.nan, matrix))

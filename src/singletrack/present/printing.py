@@ -86,10 +86,10 @@ def print_measured(
     """
     table = Table(box=None, pad_edge=False)
     for heading in ("parameter", "measured", "± sd"):
-        table.add_column(heading, no_wrap=True)
+        table.add_column(Words(heading, whole=True), no_wrap=True)
     if agreements is not None:
         for heading in (other_name or "other", "Δ/sd", "agrees"):
-            table.add_column(Words(heading), no_wrap=True)
+            table.add_column(Words(heading, whole=True), no_wrap=True)
     notes: list[str] = []
     for name, value in measured.values().items():
         unit = measured.descriptions()[name].unit
@@ -103,7 +103,7 @@ def print_measured(
                 verdict += f" ({len(notes)})"
             other = quantity_text([agreement.other], unit).partition(" ")[0]
             cells += [other, f"{agreement.ratio:+.2f}", verdict]
-        table.add_row(*cells)
+        table.add_row(*(Words(cell, whole=True) for cell in cells))
     console.print(table)
     for note in notes:
         console.print(note)

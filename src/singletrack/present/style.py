@@ -58,14 +58,20 @@ def new_figure(width: float, height: float) -> Figure:
     return figure
 
 
+_METADATA: Any = {
+    "svg": {"Date": None, "Creator": "singletrack"},
+    "png": {"Software": "singletrack"},
+    "pdf": {"CreationDate": None, "Creator": "singletrack", "Producer": "singletrack"},
+}
+
+
 def figure_bytes(figure: Figure, kind: str) -> bytes:
-    """Return a figure as the content of a file, ``kind`` "png" or "svg": no date, the same bytes each time."""
-    metadata: Any = {"svg": {"Date": None, "Creator": "singletrack"}, "png": {"Software": "singletrack"}}[kind]
+    """Return a figure as the content of a file, ``kind`` "png", "svg" or "pdf": no date, the same bytes each time."""
     content = io.BytesIO()
     with style():
         engine = figure.get_layout_engine()
         if engine is not None:
             engine.execute(figure)
             figure.set_layout_engine(None)  # laid out once, the same for every kind of file
-        figure.savefig(content, format=kind, metadata=metadata)
+        figure.savefig(content, format=kind, metadata=_METADATA[kind])
     return content.getvalue()

@@ -105,7 +105,7 @@ def eigenvalues_table(modes: Modes, title: str) -> Group:
     table = _table(title)
     note = "eigenvalues in 1/s; red grows; in parentheses: the name does not describe the motion at this speed"
     for heading in ("v (m/s)", "weave", "capsize", "castering", ""):
-        table.add_column(heading, justify="left" if not heading else "right", no_wrap=True)
+        table.add_column(Words(heading, whole=True), justify="left" if not heading else "right", no_wrap=True)
     for speed, roots, applies in zip(modes.speeds, modes.eigenvalues, modes.applies, strict=True):
         cells = [
             _root_cell(roots[:2], format_root(roots[0], roots[1]), bool(applies[:2].all())),
@@ -117,7 +117,7 @@ def eigenvalues_table(modes: Modes, title: str) -> Group:
 
 
 def _root_cell(roots: np.ndarray, text: str, applies: bool) -> Words:
-    return Words(text if applies else f"({text})", style="red" if (roots.real > 0).any() else "")
+    return Words(text if applies else f"({text})", "red" if (roots.real > 0).any() else "", whole=True)
 
 
 def eigenvalues_csv(modes: Modes) -> str:

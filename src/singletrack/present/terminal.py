@@ -11,7 +11,7 @@ import sys
 import unicodedata
 from typing import TYPE_CHECKING, Any
 
-from rich.console import Console
+from rich.console import Console, ConsoleDimensions
 from rich.measure import Measurement
 
 if TYPE_CHECKING:
@@ -119,16 +119,19 @@ class Words:
     text : str
     style : str
         As rich writes it, e.g. "bold red".
+    whole : bool
+        Whether its words stay on one line.
     """
 
-    def __init__(self, text: str, style: str = "") -> None:
-        self.text, self.style = text, style
+    def __init__(self, text: str, style: str = "", *, whole: bool = False) -> None:
+        self.text, self.style, self.whole = text, style, whole
 
     def __rich_console__(self, console: Console, options: ConsoleOptions) -> RenderResult:
         yield console.render_str(self.text, style=self.style)
 
     def __rich_measure__(self, console: Console, options: ConsoleOptions) -> Measurement:
-        return Measurement.get(console, options, console.render_str(self.text))
+        found = Measurement.get(console, options, console.render_str(self.text))
+        return Measurement(found.maximum, found.maximum) if self.whole else found
 
 
 class Terminal(Console):
@@ -146,6 +149,7 @@ class Terminal(Console):
     """
 
     def __init__(self, *, stderr: bool = False, **options: Any) -> None:
+        self._needed = 0
         super().__init__(stderr=stderr, markup=False, emoji=False, highlight=False, **options)
 
     def render_str(self, text: str, **options: Any) -> Text:
@@ -153,13 +157,25 @@ class Terminal(Console):
         options |= {"markup": False, "emoji": False, "highlight": False}
         return super().render_str(readable(printable(text), self.encoding), **options)
 
+    @property
+    def size(self) -> ConsoleDimensions:
+        """Columns and rows: those of the terminal, or what is printed needs."""
+        found = super().size
+        return ConsoleDimensions(max(found.width, self._needed), found.height)
+
+    @size.setter
+    def size(self, new: tuple[int, int]) -> None:
+        self.width, self.height = new
+
     def print(self, *objects: Any, **options: Any) -> None:
         """Print texts and tables (arguments as rich's)."""
         roomy = self.options.update(width=_WIDEST)
-        widest = max((Measurement.get(self, roomy, each).minimum for each in objects), default=0)
+        self._needed = max((Measurement.get(self, roomy, each).minimum for each in objects), default=0)
         texts = all(isinstance(each, str) for each in objects)
-        options = {"crop": False, "soft_wrap": texts, **options}
-        super().print(*objects, width=max(self.width, widest), **options)
+        try:
+            super().print(*objects, **{"crop": False, "soft_wrap": texts, **options})
+        finally:
+            self._needed = 0
 
     def on_broken_pipe(self) -> None:
         """Leave it to the command line to end as others do when nobody reads any more."""

@@ -11,6 +11,7 @@ from singletrack.linear import CriticalSpeeds, Modes, StateSpace, critical_speed
 from singletrack.model import LinearModel
 from singletrack.posture import Options, named_posture
 from singletrack.public.arguments import require_posture, require_records
+from singletrack.public.display import lines_of_model, table_of_model
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -38,6 +39,13 @@ class CoefficientMatrices(LinearModel):
     def of(cls, model: LinearModel) -> Self:
         """Return a model of any maker as one that can be asked."""
         return cls(**{field.name: getattr(model, field.name) for field in dataclasses.fields(LinearModel)})
+
+    def __repr__(self) -> str:
+        return lines_of_model(self)
+
+    def _repr_html_(self) -> str:
+        """Return the matrices as a table, for notebooks."""
+        return table_of_model(self)
 
     def eigenvalues(self, speeds: Array) -> Array:
         """Return the eigenvalues at forward speeds, sorted by real then imaginary part.

@@ -11,12 +11,14 @@ from singletrack.model import LinearModel
 from singletrack.multibody.bicycle.balance import holding_inputs
 from singletrack.multibody.bicycle.model import bicycle_model
 from singletrack.multibody.engine.assembly import assemble, move
+from singletrack.multibody.engine.checks import is_number
 from singletrack.multibody.engine.linearise import linearise
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from singletrack.arrays import Array
+    from singletrack.multibody.engine.elements import Scalar
     from singletrack.multibody.engine.model import State
     from singletrack.parameters import Bicycle, Rider
     from singletrack.posture import Options
@@ -57,17 +59,27 @@ def coefficients(bicycle: Bicycle, rider: Rider | None = None, options: Options 
     gravity = float(bicycle.gravity)
     weightless, heavy = (_with_gravity(upright, strength) for strength in (0.0, 1.0))
     still, pulled, moving = (_held(state, names) for state in (weightless, heavy, move(weightless, rolling)))
+    motions = [motion for joint in model.system.joints for motion in joint.motions]
+    damped = any(not _is_zero(motion.damping) for motion in motions)
+    # The preload of a free joint, which the angle itself does not change, is no spring.
+    sprung = any(
+        not _is_zero(motion.stiffness) or not (motion.name in names or _is_zero(motion.preload)) for motion in motions
+    )
     return LinearModel(
         M=still[0],
-        C0=still[1],
+        C0=still[1] if damped else None,
         C1=moving[1] - still[1],
-        S0=still[2],
+        S0=still[2] if sprung else None,
         K0=pulled[2] - still[2],
         K2=moving[2] - still[2],
         gravity=gravity,
         coordinates=names,
         inputs=tuple(given.name for given in model.system.inputs[: len(names)]),
     )
+
+
+def _is_zero(number: Scalar) -> bool:
+    return is_number(number) and float(number) == 0.0
 
 
 def _with_gravity(state: State, strength: float) -> State:

@@ -15,7 +15,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from singletrack.errors import InputError
-from singletrack.mechanics import Body as Solid
 from singletrack.mechanics import combine
 from singletrack.multibody.bicycle.balance import holding_inputs
 from singletrack.multibody.bicycle.limits import riding_limits
@@ -26,11 +25,13 @@ from singletrack.multibody.engine.connections import CoordinateForce, Wheel
 from singletrack.multibody.engine.elements import GROUND, Body, free, revolute
 from singletrack.multibody.engine.model import Model, build
 from singletrack.multibody.engine.system import System
+from singletrack.parameters.bodies import bicycle_bodies
 from singletrack.posture import STEER, Options, input_name, seat
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
+    from singletrack.mechanics import Body as Solid
     from singletrack.multibody.engine.elements import Scalar
     from singletrack.multibody.engine.model import State
     from singletrack.parameters import Bicycle, Rider
@@ -71,26 +72,8 @@ def _solid(numbers: Numbers, name: str, solid: Solid) -> Body:
     )
 
 
-def _own_solids(bicycle: Bicycle) -> dict[str, Solid]:
-    """Return the bicycle's four bodies."""
-    solids = {}
-    for part in ("rear_frame", "front_frame"):
-        mass, x, z, xx, yy, zz, xz = (
-            float(getattr(bicycle, f"{part}_{name}"))
-            for name in ("mass", "x", "z", "inertia_xx", "inertia_yy", "inertia_zz", "inertia_xz")
-        )
-        inertia = np.array([[xx, 0.0, xz], [0.0, yy, 0.0], [xz, 0.0, zz]])
-        solids[part.replace("_", " ")] = Solid(mass, np.array([x, 0.0, z]), inertia)
-    for part, x in (("rear_wheel", 0.0), ("front_wheel", float(bicycle.wheel_base))):
-        mass, radius, xx, yy = (
-            float(getattr(bicycle, f"{part}_{name}")) for name in ("mass", "radius", "inertia_xx", "inertia_yy")
-        )
-        solids[part.replace("_", " ")] = Solid(mass, np.array([x, 0.0, -radius]), np.diag([xx, yy, xx]))
-    return solids
-
-
 def _elements(bicycle: Bicycle, posture: Posture | None, options: Options, numbers: Numbers) -> dict[str, Any]:
-    solids = _own_solids(bicycle)
+    solids = {name: body.body() for name, body in bicycle_bodies(bicycle).items()}
     if posture is not None:
         solids["rear frame"] = combine([solids["rear frame"], *frame_segments(posture)])
     bodies = [_solid(numbers, name, solid) for name, solid in solids.items()]
@@ -177,7 +160,9 @@ def bicycle_model(bicycle: Bicycle, rider: Rider | None = None, options: Options
         limits=riding_limits(elements["joints"], elements["closures"], independent),
         parameters=numbers.values,
     )
-    key = (numbers.key(), system.coordinates)
+    links = tuple((joint.name, joint.parent, joint.child, joint.coordinates) for joint in system.joints)
+    loops = tuple((closure.name, closure.first, closure.second) for closure in system.closures)
+    key = (numbers.key(), links, loops)
     if key not in KINDS:
         while len(KINDS) >= MOSTKINDS:
             KINDS.pop(next(iter(KINDS)))

@@ -19,7 +19,7 @@ from singletrack.multibody.spacar.masses import MASSES
 if TYPE_CHECKING:
     from singletrack.arrays import Array
 
-__all__ = ["mass_functions", "per_element", "strain_functions"]
+__all__ = ["Mapped", "mass_functions", "per_element", "strain_functions"]
 
 
 @lru_cache(maxsize=64)
@@ -83,7 +83,7 @@ def mass_functions(name: str) -> dict[str, Any]:
     }
 
 
-class _Mapped:
+class Mapped:
     """A function of all elements of a kind on buffers of its own, which saves most of the time of a call."""
 
     def __init__(self, function: Any, count: int) -> None:
@@ -100,6 +100,7 @@ class _Mapped:
             self.buffer.set_res(i, result.data)
 
     def __call__(self, columns: tuple[Array, ...]) -> list[Array]:
+        """Evaluate for arguments (elements, n); results are (elements, rows, columns)."""
         for argument, column in zip(self.arguments, columns, strict=True):
             argument[...] = column
         self.evaluate()
@@ -107,9 +108,9 @@ class _Mapped:
 
 
 @lru_cache(maxsize=512)
-def _mapped(group: str, name: str, which: str, count: int) -> _Mapped:
+def _mapped(group: str, name: str, which: str, count: int) -> Mapped:
     functions = strain_functions(name) if group == "strain" else mass_functions(name)
-    return _Mapped(functions[which], count)
+    return Mapped(functions[which], count)
 
 
 def per_element(group: str, name: str, which: str, *columns: Array) -> list[Array]:

@@ -12,6 +12,7 @@ from singletrack.multibody.spacar.description import Description, Key
 from singletrack.multibody.spacar.kinds import KINDS
 from singletrack.multibody.spacar.loading import (
     Group,
+    bending,
     distributed_masses,
     lump,
     point_loads,
@@ -48,6 +49,8 @@ class Layout:
         Indices of deformations that are angles beyond a turn.
     elastic, viscous
         From deformations to stresses, from their rates to stresses, (m, m).
+    bending
+        Beams that bend by the energy of their angles; parameters are length and bending stiffness.
     loads, weights
         Constant generalised forces on coordinates, (n,): given ones, and the weight of point masses.
     moments
@@ -70,6 +73,7 @@ class Layout:
     angles: Array
     elastic: Array
     viscous: Array
+    bending: tuple[Group, ...]
     loads: Array
     weights: Array
     moments: tuple[tuple[int, Array, Array], ...]
@@ -139,6 +143,7 @@ def lay_out(d: Description, mass: str = "consistent") -> Layout:
         angles=np.array([e_index[k, a + 1] for k, e in d.elements.items() for a in KINDS[e.kind].angles], dtype=int),
         elastic=springs(d, e_index, elements, d.stiffness, size),
         viscous=springs(d, e_index, elements, d.damping, size),
+        bending=bending(d, elements),
         loads=loads,
         weights=weights,
         moments=moments,

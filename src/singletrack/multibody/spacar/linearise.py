@@ -20,6 +20,7 @@ from singletrack.arrays import Array
 from singletrack.errors import ModelError
 from singletrack.multibody.spacar.evaluate import inertia, strains, vary
 from singletrack.multibody.spacar.rows import Rows, Solver, names
+from singletrack.multibody.spacar.springs import spring_tangent
 
 if TYPE_CHECKING:
     from singletrack.multibody.spacar.description import Input, Output
@@ -135,7 +136,7 @@ def _freed(rows: Rows) -> Rows:
     )
 
 
-def small_motions(rows: Rows, motion: Motion, factor: float = 1.0) -> SmallMotions:
+def small_motions(rows: Rows, motion: Motion, factor: float = 1.0, *, massless: bool = False) -> SmallMotions:
     """Linearise about a motion, exactly.
 
     Parameters
@@ -146,6 +147,8 @@ def small_motions(rows: Rows, motion: Motion, factor: float = 1.0) -> SmallMotio
         From :func:`accelerate`.
     factor
         Of the given loads; as the motion's.
+    massless
+        Whether freedoms without mass are allowed; then there is no state space.
 
     Raises
     ------
@@ -164,7 +167,7 @@ def small_motions(rows: Rows, motion: Motion, factor: float = 1.0) -> SmallMotio
     w = -solver.solve(rows.stack(v.rates @ z, none @ z))
     a_q = -solver.solve(rows.stack(v.accelerations_v @ transfer, none @ transfer))
     a_p = -solver.solve(rows.stack(v.accelerations_x @ z + v.accelerations_v @ w, none @ z))
-    springs, dampers = matrix.T @ layout.elastic, matrix.T @ layout.viscous
+    springs, dampers = matrix.T @ spring_tangent(layout, state.e), matrix.T @ layout.viscous
     e_rates_p = matrix @ w + v.rates @ z
     M = transfer.T @ mass @ transfer
     C = transfer.T @ (mass @ a_q + v.forces_v @ transfer + dampers @ matrix @ transfer)
@@ -182,7 +185,7 @@ def small_motions(rows: Rows, motion: Motion, factor: float = 1.0) -> SmallMotio
     moving = np.concatenate([np.concatenate([w, e_rates_p]), np.concatenate([transfer, matrix @ transfer])], axis=1)
     outputs = sorted(layout.description.outputs, key=lambda port: port.number)
     C_matrix = _outputs(layout, outputs, places, moving)
-    A_matrix, B_matrix = _state_space(rows, M, C, K, B, N, G)
+    A_matrix, B_matrix = (M[:0], B[:0]) if massless else _state_space(rows, M, C, K, B, N, G)
     return SmallMotions(
         (*rows.names(), *known),
         tuple(

@@ -13,7 +13,7 @@ from singletrack.multibody.spacar.kinds import KINDS
 if TYPE_CHECKING:
     from singletrack.multibody.spacar.description import Description, Key
 
-__all__ = ["Group", "distributed_masses", "lump", "point_loads", "point_masses", "springs"]
+__all__ = ["Group", "bending", "distributed_masses", "lump", "point_loads", "point_masses", "springs"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -125,3 +125,18 @@ def point_loads(d: Description, x_index: dict[Key, int]) -> tuple[Array, tuple[t
         if d.nodes[node] == "o3":
             moments.append((first, np.array(force or (0.0,) * 3), np.array(d.torques.get(node, (0.0,) * 3))))
     return loads, tuple(moments)
+
+
+def bending(d: Description, groups: list[Group]) -> tuple[Group, ...]:
+    """Return the beams whose deformations are corrected for bending and that have bending stiffness."""
+    found = []
+    for group in groups:
+        if group.kind not in {"BEAMNL", "PLBEAMNL"}:
+            continue
+        numbers = [k for k, e in d.elements.items() if e.kind == group.kind]
+        own = [i for i, k in enumerate(numbers) if any(d.stiffness.get(k, ())[1:])]
+        if own:
+            stiffness = np.array([d.stiffness[numbers[i]][1:] for i in own])
+            p = np.concatenate([group.p[own, :1], stiffness], axis=1)
+            found.append(Group(group.kind, group.x[own], group.e[own, 1:], p))
+    return tuple(found)

@@ -14,10 +14,12 @@ from singletrack.multibody.spacar.describe import describe
 from singletrack.multibody.spacar.evaluate import strains
 from singletrack.multibody.spacar.layout import Layout, lay_out
 from singletrack.multibody.spacar.linearise import SmallMotions, small_motions
+from singletrack.multibody.spacar.listing import listing
 from singletrack.multibody.spacar.rows import Rows, Solver, choose, names
 from singletrack.multibody.spacar.simulate import simulate
 from singletrack.multibody.spacar.state import Motion, State, accelerate, configure, prescribed, rates
 from singletrack.multibody.spacar.statements import MOST_CHARACTERS, Source, parse, write
+from singletrack.multibody.spacar.statics import Buckling, buckling, equilibrium, frequencies
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -214,15 +216,31 @@ class Spacar:
         """Return the small motions about a motion (the initial one), with the file's inputs and outputs."""
         return small_motions(self.rows, self.motion() if motion is None else motion)
 
+    def equilibrium(self, factor: float = 1.0) -> Motion:
+        """Return the equilibrium under the constant loads, times a factor, and weight; at rest."""
+        return equilibrium(self.rows, replace(self.state(), v=np.zeros_like(self.layout.drawn)), factor)
+
+    def frequencies(self, motion: Motion | None = None) -> tuple[Array, Array]:
+        """Return natural frequencies, rad/s, (q,), and modes (q, q), about an equilibrium (that under the loads)."""
+        return frequencies(self.rows, self.equilibrium() if motion is None else motion)
+
+    def buckling(self) -> Buckling:
+        """Return the factors of the given loads at which the drawn equilibrium buckles."""
+        return buckling(self.rows, self.drawn())
+
+    def listing(self) -> str:
+        """Return a text that says what was understood of the file."""
+        return listing(self)
+
     def by_element(self, values: Array) -> dict[int, list[float]]:
         """Return values of deformations (m,) by element."""
         index, d = self.layout.e_index, self.description
-        return {k: [float(values[index[k, i + 1]]) for i in range(d.components(k))] for k in d.elements}
+        return {k: [float(values[index[k, i + 1]] + 0.0) for i in range(d.components(k))] for k in d.elements}
 
     def by_node(self, values: Array) -> dict[int, list[float]]:
         """Return values of coordinates (n,) by node."""
         index, d = self.layout.x_index, self.description
-        return {k: [float(values[index[k, i + 1]]) for i in range(d.width(k))] for k in d.nodes}
+        return {k: [float(values[index[k, i + 1]] + 0.0) for i in range(d.width(k))] for k in d.nodes}
 
     def names(self, kind: str) -> tuple[str, ...]:
         """Return the names of the coordinates and deformations of a kind, such as ``kinematic``."""

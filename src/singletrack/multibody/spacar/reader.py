@@ -48,6 +48,8 @@ class Reader:
 
     def whole(self, index: int, what: str) -> int:
         """Return a positive whole number."""
+        if index >= len(self.numbers):
+            raise self.refuse(f"found {len(self.numbers)} numbers, must have more: {what} is missing")
         value = self.numbers[index]
         if value != int(value) or not 1 <= value <= LARGEST:
             raise self.refuse(f"{what} is {value:g}, must be a whole number from 1 to {LARGEST}")

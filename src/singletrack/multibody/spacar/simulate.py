@@ -20,7 +20,8 @@ if TYPE_CHECKING:
 
 __all__ = ["simulate"]
 
-MOST_EVALUATIONS = 200_000
+#: The most evaluations of a motion: this, and more for every step asked for.
+MOST_EVALUATIONS, MORE_EVALUATIONS = 20_000, 400
 #: Above this ratio of the fastest frequency to the steps asked for, an implicit method is used.
 STIFF = 2_000.0
 
@@ -32,7 +33,7 @@ class _Equations:
         self.rows, self.start, self.forces = rows, start, forces
         self.layout = rows.layout
         self.u, self.k = len(rows.free), len(self.layout.angles)
-        self.count = 0
+        self.count, self.most = 0, MOST_EVALUATIONS
 
     def pack(self, state: State) -> Array:
         _, matrix = strains(self.layout, state.x)
@@ -51,10 +52,10 @@ class _Equations:
 
     def slope(self, time: float, y: Array) -> Array:
         self.count += 1
-        if self.count > MOST_EVALUATIONS:
+        if self.count > self.most:
             raise ModelError(
-                f"{self.layout.description.where}: at {time:.6g} s the motion had taken {MOST_EVALUATIONS} evaluations;"
-                " is a deformation very stiff or a freedom almost without mass? Make it fixed, or shorten the time"
+                f"{self.layout.description.where}: at {time:.6g} s the motion had taken {self.most} evaluations;"
+                " make what is very stiff or almost massless fixed, or ask for more steps or a shorter time"
             )
         if not np.all(np.isfinite(y)):
             raise ModelError(f"{self.layout.description.where}: the motion is not finite at {time:.6g} s")
@@ -107,6 +108,7 @@ def simulate(rows: Rows, start: State, times: Array, forces: Array | None = None
         Where the motion runs into a singular configuration, or is too stiff to follow.
     """
     equations = _Equations(rows, start, forces)
+    equations.most += MORE_EVALUATIONS * len(times)
     settings = rows.layout.description.settings
     tolerance = min(max(settings.get("EPSINT", 1e-9), 1e-13), 1e-2)
     solver_class = integrate.Radau if _stiff(equations, start, times) else integrate.DOP853

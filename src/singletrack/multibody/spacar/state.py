@@ -12,6 +12,7 @@ from singletrack.arrays import Array
 from singletrack.errors import ModelError
 from singletrack.multibody.spacar.evaluate import convective_rates, inertia, load, strains
 from singletrack.multibody.spacar.rows import Rows, Solver
+from singletrack.multibody.spacar.springs import spring_stresses
 
 if TYPE_CHECKING:
     from singletrack.multibody.spacar.layout import Layout
@@ -179,7 +180,7 @@ def accelerate(
     mass, convective = inertia(layout, state.x, state.v)
     c = convective_rates(layout, state.x, state.v)
     e_rates = matrix @ state.v
-    stress = layout.elastic @ state.e + layout.viscous @ e_rates
+    stress = spring_stresses(layout, state.e) + layout.viscous @ e_rates
     e_wanted, x_wanted = prescribed(layout, state.time, 2)
     bound = solver.solve(rows.stack(e_wanted - c, x_wanted))
     total = convective - load(layout, state.x) + matrix.T @ stress
