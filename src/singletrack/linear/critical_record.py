@@ -120,14 +120,19 @@ class CriticalSpeeds:
         return np.where(self.told, np.where(some, "found", "none"), "could not tell").tolist()
 
     def to_dict(self) -> dict[str, Any]:
-        """Return the lists for JSON; a range without end ends with None, since JSON has no infinity."""
-        return {
+        """Return the lists for JSON; a range without end ends with None, since JSON has no infinity.
+
+        Where there are crossings, or nothing could be told, ``status`` and ``crossings`` follow; without them the empty
+        lists mean "none".
+        """
+        lists = {
             "weave": self.weave,
             "capsize": self.capsize,
             "stable_ranges": _without_infinity(self.stable_ranges),
-            "status": self.status,
-            "crossings": _as_dicts(self.crossings),
         }
+        if self.status == "none":
+            return lists
+        return lists | {"status": self.status, "crossings": _as_dicts(self.crossings)}
 
 
 def _widened(value: np.ndarray, width: int, fill: Any) -> np.ndarray:
