@@ -15,7 +15,7 @@ from singletrack.multibody.bicycle.coefficients import coefficients
 from singletrack.multibody.bicycle.model import bicycle_model
 from singletrack.multibody.bicycle.turning import circle, held_turn, held_turns, turn_eigenvalues
 from singletrack.multibody.engine.dynamics import loop_forces, wheel_forces
-from singletrack.public.arguments import require_records
+from singletrack.posture import require_records
 
 if TYPE_CHECKING:
     from singletrack.multibody.engine.equilibrium import SteadyMotion
