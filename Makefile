@@ -42,3 +42,17 @@ $(VENV)/ready-dev: pyproject.toml constraints.txt
 
 clean:
 	rm -rf $(VENV) build dist singletrack-output .mypy_cache .ruff_cache .import_linter_cache
+
+# The page in the browser: programs traced from the equations, sources checked and built (needs npm), result shipped.
+.PHONY: page page-check page-programs
+# Types of the page's sources.
+page-check:
+	cd web && npm ci --no-audit --no-fund --loglevel=error && npm run check
+
+page-programs: setup-dev
+	$(BIN)/python -m singletrack.webpage.generate web/src/generated
+
+page: page-programs
+	cd web && npm ci --no-audit --no-fund --loglevel=error && npm run build
+	cp web/dist/index.html src/singletrack/webpage/static/page.html
+	$(BIN)/python -m singletrack.webpage.sources web > src/singletrack/webpage/static/page.sha256

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from singletrack.library import load_bicycle, load_rider
     from singletrack.parameters import Bicycle, Rider
     from singletrack.public import CoefficientMatrices, coefficients
+    from singletrack.webpage import page
 
 __all__ = [
     "Bicycle",
@@ -31,6 +32,7 @@ __all__ = [
     "coefficients",
     "load_bicycle",
     "load_rider",
+    "page",
     "spacar",
 ]
 
@@ -42,6 +44,7 @@ _LAZY = {
     "coefficients": "singletrack.public",
     "load_bicycle": "singletrack.library",
     "load_rider": "singletrack.library",
+    "page": "singletrack.webpage",
 }
 _MODULES = ("spacar",)
 

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import csv
+import dataclasses
 import json
 import re
+from html.parser import HTMLParser
 
 import numpy as np
 import pytest
@@ -113,6 +115,21 @@ def test_date_is_the_only_change(monkeypatch):
         monkeypatch.setattr(report_module, "_made", lambda day=day: day)
         texts.append(report_module.html_report(cases, claims, [], []).replace(day, ""))
     assert texts[0] == texts[1]
+
+
+def test_every_text_of_the_report_is_escaped_and_it_is_readable_on_a_phone():
+    cases = paper_cases()
+    claim = dataclasses.replace(check_claims(cases)[0], says="<script>x & y</script>", note='"<b>"')
+    picture = report_module.Picture("a", "<img src=x>", "s", b"png")
+    html = report_module.html_report(cases, [claim], [], [picture])
+    assert "<script>" not in html
+    assert "<img src=x>" not in html
+    assert "&lt;script&gt;x &amp; y&lt;/script&gt;" in html
+    assert '<meta name="viewport" content="width=device-width, initial-scale=1">' in html
+    parser = HTMLParser()
+    parser.feed(html)  # no unclosed quotation
+    for tag in ("table", "tr", "td", "section", "figure", "div"):
+        assert html.count(f"<{tag}>") + html.count(f"<{tag} ") == html.count(f"</{tag}>")
 
 
 def test_files_are_written_whole_or_not_at_all(tmp_path, monkeypatch):

@@ -3,9 +3,10 @@
 from singletrack.posture.bodies import SlavedBodies, slaved_bodies
 from singletrack.posture.mechanism import HANDLEBAR, Mechanism
 from singletrack.posture.options import ARMS, POSTURES, SHOULDERS, STEER, Options, input_name
+from singletrack.posture.residual import loop_residual
 from singletrack.posture.seated import Joint, Loop, Posture, seat, steer_axis
 from singletrack.posture.shipped import TORSO_LEAN, load_posture, mechanism_of, named_posture
-from singletrack.posture.steered import steered_skeleton
+from singletrack.posture.steered import moved_skeleton, steered_skeleton
 
 __all__ = [
     "ARMS",
@@ -22,7 +23,9 @@ __all__ = [
     "SlavedBodies",
     "input_name",
     "load_posture",
+    "loop_residual",
     "mechanism_of",
+    "moved_skeleton",
     "named_posture",
     "seat",
     "slaved_bodies",

@@ -36,7 +36,8 @@ _SEGMENTS_OF_POINT = {
 def steered_skeleton(posture: Posture, bicycle: Bicycle, steer: Array) -> Array:
     """Return the skeleton points (..., 31, 3) in m at a steer angle (...) in rad, exact to second order.
 
-    Points of the rider's moving segments follow their joints, points of the front frame turn about the steer axis.
+    Points of the rider's moving segments follow their joints, points of the front frame turn about the steer axis; free
+    joints stay where they are.
 
     Examples
     --------
@@ -49,38 +50,64 @@ def steered_skeleton(posture: Posture, bicycle: Bicycle, steer: Array) -> Array:
     >>> steered_skeleton(seat(bicycle, load_rider("rider-a"), "upright"), bicycle, np.array(0.1)).shape
     (31, 3)
     """
+    xp, (angle,) = as_arrays(steer)
+    others = [0.0 * angle] * len(posture.freedoms)
+    return moved_skeleton(posture, bicycle, xp.stack([angle, *others], axis=-1))
+
+
+def moved_skeleton(posture: Posture, bicycle: Bicycle, freedoms: Array) -> Array:
+    """Return the skeleton points (..., 31, 3) in m at freedoms (..., f), steer first, then the free joints (rad).
+
+    Exact to second order; lean, which moves all points alike, is left to the reader.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from singletrack import load_bicycle, load_rider
+    >>> from singletrack.posture import Options, seat
+    >>> bicycle = load_bicycle("stratos")
+    >>> posture = seat(bicycle, load_rider("rider-a"), Options("rigid", torso_lean=True))
+    >>> moved = moved_skeleton(posture, bicycle, np.array([0.0, 0.1]))
+    >>> (moved - posture.skeleton.points)[[0, 24]].round(2).tolist()  # contact, head
+    [[0.0, 0.0, 0.0], [0.0, 0.05, 0.0]]
+    """
+    _, (angles,) = as_arrays(freedoms)
     foot, axis = steer_axis(bicycle)
-    _, (angle,) = as_arrays(steer)
     carried = posture.carried_by or {}
-    joint_of = {}
-    for point, segments in _SEGMENTS_OF_POINT.items():
-        joint_of[point] = next((carried[name] for name in segments if name in carried), "")
-    first, second = _moved(posture, bicycle, [joint_of.get(number, "") for number in range(1, 32)])
+    links = []
+    for number in range(1, 32):
+        segments = _SEGMENTS_OF_POINT.get(number, ())
+        links.append(next((carried[name] for name in segments if name in carried), ""))
+    shifts = _shifts(posture, bicycle, links, angles)
+    steer = angles[..., 0]
     moved = []
     for number in range(1, 32):
-        point = posture.skeleton[number]
-        velocity, acceleration = first[..., number - 1, :], second[..., number - 1, :]
+        point, shift = posture.skeleton[number], shifts[..., number - 1, :]
         if number in _FRONT_POINTS:
             velocity = cross(axis, point - foot)
-            acceleration = cross(axis, velocity)
-        moved.append(point + angle[..., None] * velocity + angle[..., None] ** 2 / 2 * acceleration)
+            shift = steer[..., None] * velocity + steer[..., None] ** 2 / 2 * cross(axis, velocity)
+        moved.append(point + shift)
     return stack(moved, -2)
 
 
-def _moved(posture: Posture, bicycle: Bicycle, links: list[str]) -> tuple[Array, Array]:
-    """Return first and second derivatives (..., 31, 3) with respect to steer of points on the links named."""
+def _shifts(posture: Posture, bicycle: Bicycle, links: list[str], angles: Array) -> Array:
+    """Return how far points (..., 31, 3) on the links named move with freedoms (..., f), to second order."""
     points = posture.skeleton.points
     if not posture.joints:
-        return 0.0 * points, 0.0 * points
-    motion = rider_motion(posture, bicycle)
+        return 0.0 * points
+    motion, tree = rider_motion(posture, bicycle), posture.tree
     place = {joint.name: i for i, joint in enumerate(posture.joints)}
     none = np.zeros(len(place))
-    carries = np.array([posture.tree.within[place[link]] if link else none for link in links])
+    carries = np.array([tree.within[place[link]] if link else none for link in links])
     xp, (at,) = designs_last([points], motion.shape)
     spin, first = motion.first(carries, at)
     second = motion.second(carries, at, spin, first)
 
     def by_design(values: Array) -> Array:
-        return xp.moveaxis(values[:, :, 0].reshape(3, len(links), *motion.shape), (0, 1), (-1, -2))
+        shaped = values.reshape(3, len(links), values.shape[2], *motion.shape)
+        return xp.moveaxis(shaped, (0, 1, 2), (-2, -3, -1))
 
-    return by_design(first), by_design(second)
+    pairs = angles[..., tree.first] * angles[..., tree.second] * np.where(tree.first == tree.second, 0.5, 1.0)
+    linear = (by_design(first) * angles[..., None, None, :]).sum(-1)
+    shifts: Array = linear + (by_design(second) * pairs[..., None, None, :]).sum(-1)
+    return shifts

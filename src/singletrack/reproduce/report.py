@@ -5,11 +5,12 @@ from __future__ import annotations
 import base64
 import datetime as dt
 from dataclasses import dataclass
-from html import escape
 from typing import TYPE_CHECKING
 
-from singletrack import __version__
+from jinja2 import Environment, PackageLoader, StrictUndefined
+
 from singletrack.present.tables import critical_speeds_text
+from singletrack.version import __version__
 
 if TYPE_CHECKING:
     from singletrack.reproduce.cases import Case
@@ -41,6 +42,11 @@ class Picture:
     caption: str
     subject: str
     png: bytes = b""
+
+    @property
+    def base64(self) -> str:
+        """The content as it stands in an HTML file."""
+        return base64.b64encode(self.png).decode()
 
 
 def _agreement_cells(agreement: Agreement) -> list[str]:
@@ -90,73 +96,33 @@ def markdown_report(
     return "\n".join(lines)
 
 
-_CSS = """
-body { font: 15px/1.5 system-ui, sans-serif; max-width: 70rem; margin: 2rem auto; padding: 0 1rem; color: #222; }
-table { border-collapse: collapse; margin: 1rem 0; }
-th, td { border-bottom: 1px solid #ddd; padding: .35rem .6rem; text-align: left; vertical-align: top; }
-td.number { text-align: right; font-variant-numeric: tabular-nums; }
-.holds { color: #1b6e2c; font-weight: 600; white-space: nowrap; }
-.fails { color: #a33b00; font-weight: 600; white-space: nowrap; }
-figure { display: inline-block; margin: 1rem 1rem 1rem 0; vertical-align: top; max-width: 33rem; }
-figure img { width: 100%; }
-figcaption { font-size: 13px; color: #555; }
-.cases { display: flex; flex-wrap: wrap; gap: 1rem 3rem; }
-pre { background: #f6f6f6; padding: .6rem; font-size: 13px; }
-"""
+_TEMPLATES = Environment(
+    loader=PackageLoader("singletrack.reproduce"),
+    autoescape=True,
+    trim_blocks=True,
+    lstrip_blocks=True,
+    keep_trailing_newline=True,
+    undefined=StrictUndefined,
+)
 
 
 def html_report(
     cases: dict[str, Case], claims: list[Claim], agreements: list[Agreement], pictures: list[Picture]
 ) -> str:
-    """Return the report as one HTML file with everything in it."""
-    head = f'<meta charset="utf-8"><title>{_TITLE}</title><style>{_CSS}</style>'
-    parts = [
-        f'<!DOCTYPE html>\n<html lang="en"><head>{head}</head><body>',
-        f"<h1>{_TITLE}</h1>\n<p>{_INTRODUCTION}</p>\n<p>{_made()}</p>",
-        f"<h2>The paper and the computation</h2>\n<p>{_summary(claims)}</p>",
-        _html_claims(claims),
-        f"<h2>Two derivations</h2>\n<p>{_ENGINES}</p>",
-        _html_table(_AGREEMENT_HEADER, [[escape(cell) for cell in _agreement_cells(one)] for one in agreements]),
-        "<h2>Figures</h2>",
-        *(_html_figure(picture) for picture in pictures),
-        '<h2>Matrices and critical speeds</h2>\n<div class="cases">',
-        *(_html_case(case) for case in cases.values()),
-        "</div></body></html>\n",
-    ]
-    return "\n".join(parts)
-
-
-def _html_claims(claims: list[Claim]) -> str:
-    rows = [
-        [
-            escape(claim.section),
-            escape(claim.says),
-            escape(claim.computed),
-            f'<span class="{"holds" if claim.holds else "fails"}">{claim.verdict}</span>',
-            escape(claim.note),
-        ]
-        for claim in claims
-    ]
-    return _html_table(_CLAIM_HEADER, rows)
-
-
-def _html_table(header: tuple[str, ...], rows: list[list[str]]) -> str:
-    head = "".join(f"<th>{escape(name)}</th>" for name in header)
-    body = "\n".join("<tr>" + "".join(f"<td>{cell}</td>" for cell in row) + "</tr>" for row in rows)
-    return f"<table><tr>{head}</tr>\n{body}</table>"
-
-
-def _html_figure(picture: Picture) -> str:
-    content = base64.b64encode(picture.png).decode()
-    image = f'<img alt="{escape(picture.caption)}" src="data:image/png;base64,{content}">'
-    return f"<figure>{image}<figcaption>{escape(picture.caption)}</figcaption></figure>"
-
-
-def _html_case(case: Case) -> str:
-    rows = []
-    for name, matrix in _matrix_rows(case):
-        for i, row in enumerate(matrix):
-            cells = "".join(f'<td class="number">{value}</td>' for value in row)
-            rows.append(f"<tr><th>{name if i == 0 else ''}</th>{cells}</tr>")
-    speeds = escape(critical_speeds_text(case.critical))
-    return f"<section><h3>{escape(case.name)}</h3><table>{''.join(rows)}</table><pre>{speeds}</pre></section>"
+    """Return the report as one HTML file with everything in it; every text is escaped."""
+    return _TEMPLATES.get_template("report.html").render(
+        title=_TITLE,
+        introduction=_INTRODUCTION,
+        made=_made(),
+        summary=_summary(claims),
+        claim_header=_CLAIM_HEADER,
+        claims=claims,
+        engines=_ENGINES,
+        agreement_header=_AGREEMENT_HEADER,
+        agreements=[_agreement_cells(agreement) for agreement in agreements],
+        pictures=pictures,
+        cases=[
+            {"name": case.name, "matrices": _matrix_rows(case), "speeds": critical_speeds_text(case.critical)}
+            for case in cases.values()
+        ],
+    )

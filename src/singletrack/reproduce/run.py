@@ -5,6 +5,8 @@ from __future__ import annotations
 import json
 from typing import TYPE_CHECKING
 
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
+
 from singletrack.body.skeleton import POINT_NAMES
 from singletrack.output import prepare_folder, write_whole
 from singletrack.present.drawings import posture_figure
@@ -12,6 +14,7 @@ from singletrack.present.eigenvalues import eigenvalue_figure
 from singletrack.present.phasors import phasor_figure
 from singletrack.present.style import figure_bytes
 from singletrack.present.tables import eigenvalues_csv, write_csv
+from singletrack.present.terminal import Terminal
 from singletrack.reproduce.cases import Case, paper_cases
 from singletrack.reproduce.claims import Claim, check_claims
 from singletrack.reproduce.engines import compare_engines
@@ -49,12 +52,9 @@ def reproduce(output: Path) -> Path:
     InputError
         If the folder cannot be written to; nothing is computed then.
     """
-    from rich.console import Console
-    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
-
     prepare_folder(output)
     columns = (TextColumn("{task.description:<34}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
-    with Progress(*columns, console=Console(stderr=True)) as progress:
+    with Progress(*columns, console=Terminal(stderr=True)) as progress:
         cases = paper_cases()
         jobs = list(_drawings(cases))
         task = progress.add_task("matrices, eigenvalues, claims", total=len(jobs) + 3)

@@ -1,0 +1,141 @@
+"""The house: no import within a function without a reason, no circle, nothing that needs scrolling.
+
+import-linter keeps the layers; here is what it does not see.
+"""
+
+from __future__ import annotations
+
+import ast
+import statistics
+from graphlib import CycleError, TopologicalSorter
+from pathlib import Path
+
+import pytest
+
+import singletrack
+
+SOURCE = Path(singletrack.__file__).parent
+PATHS = sorted(SOURCE.rglob("*.py"))
+TREES = {path: ast.parse(path.read_text(encoding="utf-8")) for path in PATHS}
+
+#: Packages that may be imported where they are used: optional, or slow to import and seldom needed.
+HEAVY = {
+    "SALib": "optional: global sensitivity",
+    "control": "slow: only where a system of it is asked for",
+    "dask": "optional: sweeps on several machines",
+    "distributed": "optional: sweeps on several machines",
+    "flint": "optional: exact arithmetic",
+    "jax": "optional: arrays of JAX",
+    "matplotlib": "slow: only where something is drawn",
+    "numba": "optional: compiled kernels",
+    "pint": "slow: only where a unit is converted",
+    "pymoo": "optional: design by several aims",
+    "scipy": "slow: only where something is integrated, fitted or solved",
+    "xarray": "slow: only where a labelled result is asked for",
+    "yaml": "slow: only where a parameter set is read",
+    "yeadon": "optional: riders by 95 measurements",
+    "zarr": "optional: stores of sweeps",
+}
+#: Everything else that is imported within a function: module, what, why.
+DOORS = {
+    ("singletrack", "importlib"): "public names are loaded on first use: `import singletrack` stays light",
+    ("singletrack.linear.eigenvalues", "singletrack.linear.quartic.jax"): "needs jax",
+    ("singletrack.linear.quartic.solve", "singletrack.linear.quartic.compiled"): "needs numba",
+    ("singletrack.sweep.reading", "singletrack.sweep.checked_zarr"): "needs zarr",
+}
+#: Modules and functions that are longer than they should be; this only shrinks.
+TOO_LONG = {
+    "multibody/engine/elements.py",
+    "multibody/engine/linearise.py",
+    "posture/motion.py",
+    "reproduce/claims.py",
+}
+#: Not yet as it should be; this only shrinks: a module's name, what is imported within one of its functions.
+TO_OPEN = {tuple(line.split()) for line in Path(__file__).with_name("imports_to_open.txt").read_text().splitlines()}
+
+
+def name_of(path: Path) -> str:
+    parts = path.relative_to(SOURCE.parent).with_suffix("").parts
+    return ".".join(parts[:-1] if parts[-1] == "__init__" else parts)
+
+
+NAMES = {name_of(path) for path in PATHS}
+
+
+def is_type_checking(node: ast.AST) -> bool:
+    return isinstance(node, ast.If) and ast.unparse(node.test).endswith("TYPE_CHECKING")
+
+
+def imports(node: ast.AST, within: bool = False):
+    """Yield (import statement, whether within a function), those for type checkers left out."""
+    for child in ast.iter_child_nodes(node):
+        if is_type_checking(child):
+            continue
+        if isinstance(child, ast.Import | ast.ImportFrom):
+            yield child, within
+        yield from imports(child, within or isinstance(child, ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda))
+
+
+def targets(statement: ast.Import | ast.ImportFrom, resolve: bool = True) -> list[str]:
+    """Return the modules that a statement imports; of ``from a import b`` the module a.b if there is one, else a."""
+    if isinstance(statement, ast.Import):
+        return [alias.name for alias in statement.names]
+    base = statement.module or ""
+    if not resolve:
+        return [base]
+    return [f"{base}.{alias.name}" if f"{base}.{alias.name}" in NAMES else base for alias in statement.names]
+
+
+def imports_within_functions() -> set[tuple[str, str]]:
+    return {
+        (name_of(path), target)
+        for path, tree in TREES.items()
+        for statement, within in imports(tree)
+        for target in targets(statement, resolve=False)
+        if within and target.partition(".")[0] not in HEAVY
+    }
+
+
+def test_imports_within_functions_have_a_reason():
+    without = imports_within_functions() - set(DOORS) - TO_OPEN
+    assert without == set(), "import at the top of the module, or say why not in DOORS"
+
+
+def test_no_import_circle_even_within_functions():
+    graph: dict[str, set[str]] = {}
+    for path, tree in TREES.items():
+        module = name_of(path)
+        graph[module] = {
+            target
+            for statement, _ in imports(tree)
+            for target in targets(statement)
+            if target in NAMES and not module.startswith(f"{target}.") and target != module
+        }
+    try:
+        TopologicalSorter(graph).prepare()
+    except CycleError as error:
+        pytest.fail(f"an import circle: {' -> '.join(error.args[1])}")
+
+
+SHORT = [path for path in PATHS if path.relative_to(SOURCE).as_posix() not in TOO_LONG]
+
+
+@pytest.mark.parametrize("path", SHORT, ids=lambda path: path.relative_to(SOURCE).as_posix())
+def test_nothing_needs_scrolling(path):
+    assert len(path.read_text(encoding="utf-8").splitlines()) <= 300
+    for node in ast.walk(TREES[path]):
+        if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef):
+            assert length_without_docstring(node) <= 50, node.name
+
+
+def length_without_docstring(node: ast.FunctionDef | ast.AsyncFunctionDef) -> int:
+    length = (node.end_lineno or node.lineno) - node.lineno + 1
+    first = node.body[0]
+    if ast.get_docstring(node) is not None:
+        length -= (first.end_lineno or first.lineno) - first.lineno + 1
+    return length
+
+
+def test_modules_are_short():
+    lengths = [len(path.read_text(encoding="utf-8").splitlines()) for path in PATHS]
+    assert statistics.median(lengths) < 150

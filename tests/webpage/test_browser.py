@@ -1,0 +1,216 @@
+"""The page in a real browser: no requests, no errors, Python's numbers, quick redraws, nothing breaks it."""
+
+from __future__ import annotations
+
+import json
+import shutil
+import time
+
+import numpy as np
+import pytest
+
+from singletrack import coefficients, load_bicycle, load_rider, page
+from singletrack.errors import SingletrackError
+
+webdriver = pytest.importorskip("selenium.webdriver", reason="selenium, which drives the browser, is not installed")
+BROWSER, DRIVER = shutil.which("chromium"), shutil.which("chromedriver")
+pytestmark = pytest.mark.skipif(
+    BROWSER is None or DRIVER is None, reason="Chromium and its driver are not installed (.ci/run installs them)"
+)
+
+
+@pytest.fixture(scope="module")
+def browser(tmp_path_factory):
+    options = webdriver.ChromeOptions()
+    options.binary_location = BROWSER
+    for argument in ("--headless=new", "--no-sandbox", "--window-size=1400,900", "--enable-unsafe-swiftshader"):
+        options.add_argument(argument)
+    options.set_capability("goog:loggingPrefs", {"performance": "ALL", "browser": "ALL"})
+    driver = webdriver.Chrome(options=options, service=webdriver.ChromeService(DRIVER))
+    driver.set_script_timeout(120)
+    file = page().save(tmp_path_factory.mktemp("page") / "page.html")
+    driver.get(file.as_uri())
+    driver.execute_script("document.getElementById('play').click()")  # still pictures: the processor is for the tests
+    yield driver
+    driver.quit()
+
+
+def ask(browser, changes):
+    """Set the page back, make changes, return what it answers."""
+    script = "const s = window.singletrack; for (const c of arguments[0]) s.set(c); return JSON.stringify(s.result());"
+    browser.execute_script("document.getElementById('reset').click()")
+    return json.loads(browser.execute_script(script, changes))
+
+
+def test_nothing_is_requested_and_nothing_goes_wrong(browser):
+    events = [json.loads(entry["message"])["message"] for entry in browser.get_log("performance")]
+    asked = [e["params"]["request"]["url"] for e in events if e["method"] == "Network.requestWillBeSent"]
+    assert [url[:60] for url in asked if not url.startswith(("file:", "data:", "blob:"))] == []
+    assert [entry for entry in browser.get_log("browser") if entry["level"] == "SEVERE"] == []
+
+
+def random_designs(count, seed):
+    """Yield designs around the shipped ones, with what Python says of them."""
+    random = np.random.default_rng(seed)
+    rider = load_rider("rider-a")
+    ways = [("", "rigid", None), ("rider-a", "rigid", None), *WAYS]
+    for _ in range(count):
+        name = str(random.choice(["stratos", "browser"]))
+        who, posture, options = ways[random.integers(len(ways))]
+        bicycle = load_bicycle(name)
+        own = rider.on(bicycle)
+        names = [n for n in bicycle.values() if n != "gravity"]
+        changed = {n: float(bicycle.values()[n] * (1 + random.uniform(-0.03, 0.03))) for n in names}
+        if who:  # with arms that mostly reach
+            more = {"rider_mass": (-0.2, 0.2), "torso_length": (-0.03, 0.03), "forward_lean_angle": (-0.03, 0.03)}
+            more |= {"upper_arm_length": (0.0, 0.15), "lower_arm_length": (0.0, 0.15)}
+            changed |= {n: float(own.values()[n] * (1 + random.uniform(*ends))) for n, ends in more.items()}
+        speed = float(random.uniform(0.2, 10))
+        changes = [{"bicycle": name, "rider": who, "posture": posture, **(options or {}), **changed, "speed": speed}]
+        riders = {n: v for n, v in changed.items() if n in own.values()}
+        person = own.replace(**riders) if who else None
+        try:
+            model = coefficients(bicycle.replace(**{n: changed[n] for n in names}), person, posture, **(options or {}))
+        except SingletrackError:
+            yield changes, None, speed
+            continue
+        yield changes, model, speed
+
+
+WAYS = [
+    ("rider-a", "leaned", {"arms": "straight"}),
+    ("rider-a", "leaned", {"arms": "bent"}),
+    ("rider-a", "upright", None),
+]
+
+
+def test_a_thousand_designs_have_pythons_numbers(browser):
+    designs = list(random_designs(1000, seed=1))
+    script = "return arguments[0].map((c) => (window.singletrack.set(c), JSON.stringify(window.singletrack.result())));"
+    answers: list[str] = []
+    for start in range(0, len(designs), 100):
+        answers += browser.execute_script(script, [changes[0] for changes, _, _ in designs[start : start + 100]])
+    compared = 0
+    for (changes, model, speed), answer in zip(designs, answers, strict=True):
+        found = json.loads(answer)
+        if model is None:  # a limb too short, an inertia that no body has
+            assert found["message"], changes
+            continue
+        assert found["message"] == "", (found["message"], changes)
+        for name in ("M", "C0", "C1", "S0", "K0", "K2"):
+            expected = np.asarray(getattr(model, name))
+            np.testing.assert_allclose(found[name], expected, rtol=0, atol=1e-10 * (1 + np.abs(expected).max()))
+        modes = model.modes(speed)
+        roots = np.array([complex(*root) for root in found["eigenvalues"]])
+        np.testing.assert_allclose(roots, modes.eigenvalues[0], rtol=0, atol=1e-9 * (1 + np.abs(roots).max()))
+        assert found["modes"] == list(modes.names)
+        critical = model.critical_speeds()
+        for kind in ("weave", "capsize"):
+            np.testing.assert_allclose(found[kind], getattr(critical, kind), rtol=1e-6)
+        ranges = [[low, np.inf if high is None else high] for low, high in found["stable_ranges"]]
+        np.testing.assert_allclose(np.ravel(ranges), np.ravel(critical.stable_ranges), rtol=1e-6)
+        compared += 1
+    assert compared > 500
+
+
+def test_a_sliders_redraw_is_quicker_than_a_frame(browser):
+    """Scripting alone, as the page measures it; a ratio to the browser's own frame of 16 ms."""
+    script = """
+      const times = [], slider = document.getElementById("slider-trail");
+      for (let k = 0; k < 41; k++) {
+        slider.value = 40 + k;
+        slider.dispatchEvent(new Event("input"));
+        times.push(window.singletrack.lastRedraw());
+      }
+      return times.sort((a, b) => a - b)[20];
+    """
+    ask(browser, [{"bicycle": "stratos", "rider": "rider-a"}, {"posture": "upright"}])
+    assert browser.execute_script(script) < 16
+
+
+def test_every_control_answers(browser):
+    script = """
+      const done = [];
+      for (const input of document.querySelectorAll("#controls input[type=range]")) {
+        if (input.closest(".control").hidden) continue;
+        const before = JSON.stringify(window.singletrack.result().parameters);
+        input.value = String((Number(input.value) * 3 + Number(input.max)) / 4);
+        input.dispatchEvent(new Event("input"));
+        const result = window.singletrack.result();
+        done.push([input.id, JSON.stringify(result.parameters) !== before || result.message !== ""]);
+      }
+      return done;
+    """
+    ask(browser, [{"bicycle": "stratos", "rider": "rider-a"}, {"posture": "leaned"}])
+    done = browser.execute_script(script)
+    assert len(done) > 10
+    assert [name for name, moved in done if not moved] == []
+
+
+def test_what_cannot_be_is_said_and_the_last_design_stays(browser):
+    ask(browser, [{"bicycle": "stratos", "rider": "rider-a"}, {"posture": "leaned"}])
+    before = ask(browser, [])
+    found = json.loads(
+        browser.execute_script(
+            "window.singletrack.set({upper_arm_length: 0.1}); return JSON.stringify(window.singletrack.result())"
+        )
+    )
+    assert "arms are too short" in found["message"]
+    assert found["parameters"] == before["parameters"]
+    assert "arms are too short" in browser.execute_script("return document.getElementById('message').textContent")
+
+
+def test_undo_and_the_address_bring_a_design_back(browser):
+    first = ask(browser, [{"bicycle": "browser", "rider": "rider-a"}, {"posture": "upright"}, {"trail": 0.05}])
+    address = browser.current_url
+    ask(browser, [{"bicycle": "benchmark", "rider": ""}])
+    browser.execute_script("window.singletrack.undo(); window.singletrack.undo();")
+    assert json.loads(browser.execute_script("return JSON.stringify(window.singletrack.result())"))["parameters"]
+    browser.get("about:blank")
+    browser.get(address)
+    again = json.loads(browser.execute_script("return JSON.stringify(window.singletrack.result())"))
+    assert (again["parameters"], again["M"]) == (first["parameters"], first["M"])
+    browser.execute_script("document.getElementById('play').click()")
+
+
+def test_two_thousand_random_states_never_break_it(browser):
+    script = """
+      let seed = 7;
+      const random = () => (seed = (seed * 48271) % 2147483647) / 2147483647;
+      const pick = (items) => items[Math.floor(random() * items.length)];
+      const errors = [];
+      addEventListener("error", (event) => errors.push(event.message));
+      for (let k = 0; k < 2000; k++) {
+        const select = pick([...document.querySelectorAll("header select")]);
+        if (random() < 0.15 && select.options.length) {
+          select.value = pick([...select.options]).value;
+          select.dispatchEvent(new Event("change"));
+        } else if (random() < 0.1) {
+          const name = pick(["trail", "speed", "nonsense", "rider_mass"]);
+          window.singletrack.set({ [name]: pick([NaN, -1, 1e300, "x", null]) });
+        } else {
+          const input = pick([...document.querySelectorAll("#controls input[type=range], #speed")]);
+          input.value = String(Number(input.min) + random() * (Number(input.max) - Number(input.min)));
+          input.dispatchEvent(new Event("input"));
+        }
+        const result = window.singletrack.result();
+        const numbers = [...result.M.flat(), ...result.K0.flat(), ...result.eigenvalues.flat()];
+        if (!numbers.every(Number.isFinite)) errors.push(JSON.stringify(result.parameters));
+        if (Math.abs(Number(document.getElementById("speed").value) - Math.min(result.speed, 10)) > 0.051)
+          errors.push("stale speed");
+        if (document.getElementById("message").textContent !== result.message) errors.push("stale message");
+      }
+      return errors;
+    """
+    ask(browser, [{"bicycle": "stratos", "rider": "rider-a"}])
+    started = time.monotonic()
+    assert browser.execute_script(script) == []
+    assert time.monotonic() - started < 120  # a hang would end here; not a measurement
+    assert [entry for entry in browser.get_log("browser") if entry["level"] == "SEVERE"] == []
+
+
+def test_names_from_files_stay_text(browser, tmp_path):
+    evil = '<img src=x onerror="window.evil=1"></script><script>window.evil=1</script>'
+    file = page(load_bicycle("benchmark").replace(name=evil, description=evil)).save(tmp_path / "evil.html")
+    browser.get(file.as_uri())
+    assert browser.execute_script("return [window.evil, document.getElementById('bicycle').value]") == [None, evil]
