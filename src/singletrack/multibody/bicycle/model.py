@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from singletrack.body.oddities import warn_of_oddities
 from singletrack.errors import InputError
 from singletrack.mechanics import combine
 from singletrack.multibody.bicycle.balance import holding_inputs
@@ -146,6 +147,7 @@ def bicycle_model(bicycle: Bicycle, rider: Rider | None = None, options: Options
     require_records(bicycle, rider)
     _refuse_batches(bicycle, rider)
     _refuse_skates(bicycle)
+    warn_of_oddities(bicycle, rider)
     options = Options.of(options)
     if rider is None:
         options.require_rider()
