@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from singletrack.library import load_bicycle, load_rider
     from singletrack.parameters import Bicycle, Rider
     from singletrack.public import CoefficientMatrices, coefficients
+    from singletrack.public.turning import turn
     from singletrack.webpage import page
 
 __all__ = [
@@ -36,6 +37,7 @@ __all__ = [
     "load_rider",
     "page",
     "spacar",
+    "turn",
 ]
 
 # Where each public name lives; loaded on first use, so that `import singletrack` stays light.
@@ -47,6 +49,7 @@ _LAZY = {
     "fit": "singletrack.body.fit",
     "load_bicycle": "singletrack.library",
     "load_rider": "singletrack.library",
+    "turn": "singletrack.public.turning",
     "page": "singletrack.webpage",
 }
 _MODULES = ("spacar",)
