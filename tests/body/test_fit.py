@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from singletrack import InputError, PostureError, coefficients, fit, load_bicycle, load_rider
+from singletrack.arrays.steps import complex_steps
 from singletrack.body.fit import elbow_angle
 from singletrack.commands import app
 
