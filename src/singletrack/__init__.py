@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from singletrack.library import load_bicycle, load_rider
     from singletrack.parameters import Bicycle, Rider
     from singletrack.public import CoefficientMatrices, coefficients
+    from singletrack.public.turning import turn
     from singletrack.webpage import page
 
 __all__ = [
@@ -34,6 +35,7 @@ __all__ = [
     "load_rider",
     "page",
     "spacar",
+    "turn",
 ]
 
 # Where each public name lives; loaded on first use, so that `import singletrack` stays light.
@@ -44,6 +46,7 @@ _LAZY = {
     "coefficients": "singletrack.public",
     "load_bicycle": "singletrack.library",
     "load_rider": "singletrack.library",
+    "turn": "singletrack.public.turning",
     "page": "singletrack.webpage",
 }
 _MODULES = ("spacar",)
