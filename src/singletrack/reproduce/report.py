@@ -25,7 +25,7 @@ __all__ = ["Picture", "html_report", "markdown_report"]
 _TITLE = "Lateral dynamics of a bicycle with passive rider model: reproduced"
 _INTRODUCTION = (
     "From the tape-measure data of Schwab and Kooijman's paper (Stratos and Browser) and of its journal version (hybrid"
-    " and city, the same bicycles measured again), with Rider A in three postures: rigid (hands free), leaned (stretched"
+    " and city, the same bicycles measured again) with Rider A in three postures: rigid (hands free), leaned (stretched"
     " arms, twisting torso) and upright (flexed arms). Each printed number and each sentence about eigenvalues stands "
     "beside what was computed; so does the riderless bicycle on which weave was measured."
 )

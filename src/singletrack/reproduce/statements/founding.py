@@ -31,7 +31,7 @@ def founding_statements(cases: dict[str, Case]) -> list[Statement]:
 
 
 _CORRECTED = (
-    "The printed number does not follow from the printed data: with straight arms it is {straight:.4f}, with elbows bent"
+    "The printed number does not follow from the printed data: with straight arms it is {straight:.4f}, with arms bent"
     " as Table 4 places them {bent:.4f}, with the shoulder's second axis along the upper arm {axial:.4f}. The authors"
     " print -9.7 in the journal version."
 )
