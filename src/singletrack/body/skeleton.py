@@ -109,18 +109,23 @@ def skeleton(bicycle: Bicycle, rider: Rider) -> Skeleton:
     >>> skeleton(load_bicycle("stratos"), load_rider("rider-a"))[13].round(4).tolist()
     [0.2677, 0.0, -0.942]
     """
-    missing = bicycle.missing_geometry()
-    if missing:
-        raise InputError(
-            f"{bicycle.name or 'bicycle'}: cannot seat a rider without frame geometry; missing: {', '.join(missing)}",
-            parameters=missing,
-        )
+    require_geometry(bicycle)
     rider = rider.on(bicycle)
     frame = frame_points(bicycle)
     body, elbow_axis, faults = _rider_points(frame, bicycle, rider)
     points = frame | body
     where = " on ".join(name for name in (rider.name, bicycle.name) if name)
     return Skeleton(stack([points[number] for number in range(1, 32)], -2), refuse_single(faults, where), elbow_axis)
+
+
+def require_geometry(bicycle: Bicycle) -> None:
+    """Raise InputError if a bicycle has no frame geometry, with the names that are missing."""
+    missing = bicycle.missing_geometry()
+    if missing:
+        raise InputError(
+            f"{bicycle.name or 'bicycle'}: cannot seat a rider without frame geometry; missing: {', '.join(missing)}",
+            parameters=missing,
+        )
 
 
 def frame_points(bicycle: Bicycle) -> dict[int, Array]:
@@ -215,16 +220,17 @@ def _two_link_joint(
 def _elbow_aside(shoulder: Array, grip: Array, rider: Rider) -> tuple[Array, Array, list[Fault]]:
     """Return the right elbow and its axis (..., 3) where the arm may leave the plane x-z, and where it fails.
 
-    The elbow lies on a circle about the line from shoulder to grip: dropped, in the direction line x y, or turned
-    outwards from there as the elbow drop angle says.
+    The elbow lies on a circle about the line from shoulder to grip: hanging down, in the vertical plane through the
+    line, or turned outwards from there as the elbow drop angle says.
     """
     line = grip - shoulder
     xp, (line,) = as_arrays(line)
     distance = xp.sqrt(dot(line, line))
     along, aside, faults = _two_links(distance, rider.upper_arm_length, rider.lower_arm_length, "arm")
     ahead = line / distance[..., None]
-    down = unit_vector(vector(-ahead[..., 2], 0.0, ahead[..., 0]))
-    out = cross(down, ahead)
+    forward = xp.where(xp.real(ahead[..., 0]) < 0, -1.0, 1.0)
+    out = unit_vector(vector(-forward * ahead[..., 1], forward * ahead[..., 0], 0.0))
+    down = cross(ahead, out)
     if rider.elbow_drop_angle is not None:
         _, (drop,) = as_arrays(rider.elbow_drop_angle)
         sin, cos = xp.sin(drop)[..., None], xp.cos(drop)[..., None]
