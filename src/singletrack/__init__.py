@@ -15,6 +15,7 @@ from singletrack.version import __version__
 
 if TYPE_CHECKING:
     from singletrack import spacar
+    from singletrack.body.fit import fit
     from singletrack.library import load_bicycle, load_rider
     from singletrack.parameters import Bicycle, Rider
     from singletrack.public import CoefficientMatrices, coefficients
@@ -31,6 +32,7 @@ __all__ = [
     "SingletrackError",
     "__version__",
     "coefficients",
+    "fit",
     "load_bicycle",
     "load_rider",
     "page",
@@ -44,6 +46,7 @@ _LAZY = {
     "CoefficientMatrices": "singletrack.public",
     "Rider": "singletrack.parameters",
     "coefficients": "singletrack.public",
+    "fit": "singletrack.body.fit",
     "load_bicycle": "singletrack.library",
     "load_rider": "singletrack.library",
     "turn": "singletrack.public.turning",
