@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import io
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
 import typer
@@ -27,6 +27,8 @@ from singletrack.public import warn_of_oddities
 from singletrack.public.riding import Ride, ride_for
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from singletrack.arrays import Array
 
 __all__ = ["run"]
@@ -55,34 +57,18 @@ def run(
     json: JsonOption = False,
 ) -> None:
     """Ride a bicycle, nonlinear, and say how it ended."""
-    for file, suffixes in ((output, _DATA), (plot, _FIGURES), (animate, _MOVIES)):
-        if file is not None and file.suffix.lower() not in suffixes:
-            raise InputError(f"{file}: unknown suffix {file.suffix!r}, must be one of {', '.join(suffixes)}")
-        if file is not None:
-            check_writable(file)
+    _check_files(output, plot, animate)
     record, rider, changed = seated(load_bicycle(bicycle), options)
     warn_of_oddities(record, rider)
     v, until = number_of("--speed", speed, "m/s"), number_of("--for", duration, "s")
-    console = Terminal(stderr=True)
-    with Progress(
-        TextColumn("riding"),
-        BarColumn(bar_width=24),
-        TextColumn("{task.completed:.2f} s"),
-        console=console,
-        transient=True,
-    ) as bar:
-        task = bar.add_task("ride", total=until)
-        found = ride_for(
-            record,
-            rider,
-            options.sitting,
-            speed=v,
-            duration=until,
-            push=number_of("--push", push, "rad/s"),
-            lean=number_of("--lean", lean, "rad"),
-            torque=None if torque is None else read_signal(read_text(torque), str(torque)),
-            progress=lambda t: bar.update(task, completed=t),
-        )
+    given: Any = {
+        "speed": v,
+        "duration": until,
+        "push": number_of("--push", push, "rad/s"),
+        "lean": number_of("--lean", lean, "rad"),
+        "torque": None if torque is None else read_signal(read_text(torque), str(torque)),
+    }
+    found = _with_progress(until, lambda tell: ride_for(record, rider, options.sitting, **given, progress=tell))
     who = "" if rider is None else f" with {rider.name or 'rider'}, {options.sitting.title}"
     title = f"{record.name}{who}{changed}, {v:g} m/s"
     _write(found, title, output, plot, animate)
@@ -91,6 +77,21 @@ def run(
     else:
         show(f"{title}: {found.end}, at {found.end_time:.2f} s" if not found.whole else f"{title}: {found.end}")
         show(_lines(found))
+
+
+def _with_progress(until: float, work: Callable[[Callable[[float], object]], Ride]) -> Ride:
+    columns = (TextColumn("riding"), BarColumn(bar_width=24), TextColumn("{task.completed:.2f} s"))
+    with Progress(*columns, console=Terminal(stderr=True), transient=True) as bar:
+        task = bar.add_task("ride", total=until)
+        return work(lambda t: bar.update(task, completed=t))
+
+
+def _check_files(output: Path | None, plot: Path | None, animate: Path | None) -> None:
+    for file, suffixes in ((output, _DATA), (plot, _FIGURES), (animate, _MOVIES)):
+        if file is not None and file.suffix.lower() not in suffixes:
+            raise InputError(f"{file}: unknown suffix {file.suffix!r}, must be one of {', '.join(suffixes)}")
+        if file is not None:
+            check_writable(file)
 
 
 def _write(found: Ride, title: str, output: Path | None, plot: Path | None, animate: Path | None) -> None:
