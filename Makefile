@@ -2,8 +2,9 @@
 PYTHON ?= python3
 VENV ?= .venv
 BIN := $(VENV)/bin
+TOOLS ?= .tools
 
-.PHONY: reproduce test fuzz check format benchmark setup setup-dev clean
+.PHONY: reproduce test fuzz check format benchmark setup setup-dev lock audit kill mutants clean
 
 reproduce: setup
 	$(BIN)/singletrack reproduce
@@ -30,18 +31,53 @@ benchmark: setup-dev
 setup: $(VENV)/ready
 setup-dev: $(VENV)/ready-dev
 
-$(VENV)/ready: pyproject.toml constraints.txt
+# Every package is one of those whose hashes are listed; ours is built by tools among them, and not by others.
+INSTALL = $(BIN)/python -m pip install --quiet --disable-pip-version-check
+
+$(VENV)/ready: pyproject.toml requirements/run.txt
 	$(PYTHON) -m venv $(VENV)
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check --constraint constraints.txt --editable .
+	$(INSTALL) --require-hashes --requirement requirements/run.txt
+	$(INSTALL) --no-deps --no-build-isolation --editable .
 	touch $@
 
-$(VENV)/ready-dev: pyproject.toml constraints.txt
+$(VENV)/ready-dev: pyproject.toml requirements/dev.txt
 	$(PYTHON) -m venv $(VENV)
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check --constraint constraints.txt --editable '.[dev]'
+	$(INSTALL) --require-hashes --requirement requirements/dev.txt
+	$(INSTALL) --no-deps --no-build-isolation --editable .
 	touch $@ $(VENV)/ready
 
+$(TOOLS)/ready: requirements/tools.txt
+	$(PYTHON) -m venv $(TOOLS)
+	$(TOOLS)/bin/python -m pip install --quiet --disable-pip-version-check --require-hashes --requirement requirements/tools.txt
+	touch $@
+
+# After a change of dependencies: pin the version in constraints.txt, then write the lists of hashes anew, for every
+# Python from 3.11 on and every system.
+LOCK = $(TOOLS)/bin/uv pip compile --quiet --universal --python-version 3.11 --generate-hashes --no-annotate --no-header \
+	--no-config --constraint constraints.txt
+
+lock: $(TOOLS)/ready
+	$(LOCK) pyproject.toml requirements/build.in --output-file requirements/run.txt
+	$(LOCK) pyproject.toml requirements/build.in --extra dev --output-file requirements/dev.txt
+	$(LOCK) requirements/tools.in --output-file requirements/tools.txt
+
+audit: $(TOOLS)/ready
+	$(TOOLS)/bin/pip-audit --strict --require-hashes --disable-pip --requirement requirements/dev.txt
+	$(TOOLS)/bin/pip-audit --strict --require-hashes --disable-pip --requirement requirements/tools.txt
+
+# One hundred kills at random instants, and every call to the system failing in turn.
+kill: setup-dev
+	SINGLETRACK_KILLS=100 SINGLETRACK_EXHAUSTIVE=1 $(BIN)/python -m pytest tests/sweep/test_kills.py \
+		tests/sweep/test_durable.py tests/sweep/test_damage.py
+
+# Mutation testing of the packages in MUTANTS; hours for all of them, so that a sample is taken unless SAMPLE=0.
+MUTANTS ?= body posture linear multibody analysis
+SAMPLE ?= 40
+mutants: setup-dev
+	$(BIN)/python tests/mutants.py --sample $(SAMPLE) $(MUTANTS)
+
 clean:
-	rm -rf $(VENV) build dist singletrack-output .mypy_cache .ruff_cache .import_linter_cache
+	rm -rf $(VENV) $(TOOLS) build dist singletrack-output .mypy_cache .ruff_cache .import_linter_cache
 
 # The page in the browser: programs traced from the equations, sources checked and built (needs npm), result shipped.
 .PHONY: page page-check page-programs

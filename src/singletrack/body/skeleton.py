@@ -215,16 +215,17 @@ def _two_link_joint(
 def _elbow_aside(shoulder: Array, grip: Array, rider: Rider) -> tuple[Array, Array, list[Fault]]:
     """Return the right elbow and its axis (..., 3) where the arm may leave the plane x-z, and where it fails.
 
-    The elbow lies on a circle about the line from shoulder to grip: dropped, in the direction line x y, or turned
-    outwards from there as the elbow drop angle says.
+    The elbow lies on a circle about the line from shoulder to grip: hanging down, in the vertical plane through the
+    line, or turned outwards from there as the elbow drop angle says.
     """
     line = grip - shoulder
     xp, (line,) = as_arrays(line)
     distance = xp.sqrt(dot(line, line))
     along, aside, faults = _two_links(distance, rider.upper_arm_length, rider.lower_arm_length, "arm")
     ahead = line / distance[..., None]
-    down = unit_vector(vector(-ahead[..., 2], 0.0, ahead[..., 0]))
-    out = cross(down, ahead)
+    forward = xp.where(xp.real(ahead[..., 0]) < 0, -1.0, 1.0)
+    out = unit_vector(vector(-forward * ahead[..., 1], forward * ahead[..., 0], 0.0))
+    down = cross(ahead, out)
     if rider.elbow_drop_angle is not None:
         _, (drop,) = as_arrays(rider.elbow_drop_angle)
         sin, cos = xp.sin(drop)[..., None], xp.cos(drop)[..., None]

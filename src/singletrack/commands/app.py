@@ -57,9 +57,9 @@ def _told(error: BaseException) -> tuple[str, int]:
     """Return the sentence and the exit code for an error."""
     match error:
         case KeyboardInterrupt():
-            return "interrupted", 128 + signal.SIGINT
+            return "; ".join(["interrupted", *_notes(error)]), 128 + signal.SIGINT
         case _Terminated():
-            return "terminated", 128 + signal.SIGTERM
+            return "; ".join(["terminated", *_notes(error)]), 128 + signal.SIGTERM
         case SingletrackError():
             return str(error), 2
         case OSError():
@@ -68,6 +68,11 @@ def _told(error: BaseException) -> tuple[str, int]:
             return "there is not enough memory for this", 1
     text = f"internal error, please report it: {type(error).__name__}: {error}"
     return f"{text} (SINGLETRACK_TRACEBACK=1 shows where)", 1
+
+
+def _notes(error: BaseException) -> list[str]:
+    """Return what was noted on an error on its way: what is kept, how to go on."""
+    return list(getattr(error, "__notes__", ()))
 
 
 def _said(text: str, code: int) -> int:

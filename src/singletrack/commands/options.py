@@ -28,6 +28,7 @@ class TemplateKind(StrEnum):
     bicycle = "bicycle"
     rider = "rider"
     measurements = "measurements"
+    posture = "posture"
 
 
 class RecordKind(StrEnum):

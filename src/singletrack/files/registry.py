@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from singletrack.errors import InputError, unknown_name
-from singletrack.files import measured, parameter_sets, rigid_rider, signals, text, toml, yeadon
+from singletrack.files import measured, parameter_sets, posture, rigid_rider, signals, text, toml, yeadon
 from singletrack.files.format import clues_of
 
 if TYPE_CHECKING:
@@ -20,6 +20,7 @@ __all__ = ["FORMATS", "format_of", "read_any", "read_bicycle", "read_rider", "te
 
 #: A new each is a module with a Format, and a line here. The last one takes what no other knows.
 FORMATS: tuple[Format, ...] = (
+    posture.FORMAT,
     toml.FORMAT,
     yeadon.FORMAT,
     yeadon.CONFIGURATION,
@@ -130,7 +131,7 @@ def templates() -> dict[str, Callable[[], str]]:
     Examples
     --------
     >>> list(templates())
-    ['bicycle', 'rider', 'measurements']
+    ['posture', 'bicycle', 'rider', 'measurements']
     """
     return {name: text for each in FORMATS for name, text in each.templates.items()}
 

@@ -10,7 +10,8 @@ import numpy as np
 from singletrack.arrays import Array, as_arrays, is_concrete, stack
 from singletrack.arrays.faults import Fault, refuse_single
 from singletrack.errors import PostureError
-from singletrack.posture.motion import Motion, designs_last, rider_motion
+from singletrack.posture.motion import rider_motion
+from singletrack.posture.twists import Motion, designs_last
 
 if TYPE_CHECKING:
     from singletrack.parameters import Bicycle
@@ -93,7 +94,9 @@ def slaved_bodies(posture: Posture, bicycle: Bicycle) -> SlavedBodies:
     inertia = stack([body.inertia for body in segments], -3)
     if not posture.joints:
         still = np.zeros((1, len(segments), 3))
-        return SlavedBodies(mass, centre, inertia, still, still, still, posture.skeleton.faults, moving=())
+        return SlavedBodies(
+            mass, centre, inertia, still, still, still, posture.skeleton.faults + posture.faults, moving=()
+        )
     motion = rider_motion(posture, bicycle)
     xp, (points,) = designs_last([centre], motion.shape)
     carries = posture.tree.carries
@@ -111,7 +114,7 @@ def slaved_bodies(posture: Posture, bicycle: Bicycle) -> SlavedBodies:
         turned,
         displaced,
         bent,
-        posture.skeleton.faults + motion.faults + _massless(posture, turned, displaced),
+        posture.skeleton.faults + posture.faults + motion.faults + _massless(posture, turned, displaced),
         posture.freedoms,
         damping=damping,
         stiffness=stiffness,

@@ -113,6 +113,8 @@ class LoopPlan:
         ``handlebar``, ``frame`` or another joint's name.
     point : Place, optional
         The point that both have in common (a ball joint).
+    at : Place, optional
+        The other's point, where it is given by itself; must be the same place at rest.
     perpendicular : (Direction, Direction), optional
         Instead: a direction of the joint's link and one of the other, which are perpendicular and stay so.
     stiffness, damping : array, optional
@@ -126,6 +128,7 @@ class LoopPlan:
     perpendicular: tuple[Direction, Direction] | None = None
     stiffness: Array | None = None
     damping: Array = 0.0
+    at: Place | None = None
 
 
 @dataclass(frozen=True, eq=False)

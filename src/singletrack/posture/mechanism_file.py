@@ -30,7 +30,7 @@ _UNITS = {
     "slider": {"stiffness": "N/m", "damping": "N*s/m", "preload": "N"},
 }
 _JOINT = ("name", "parent", "kind", "point", "axis", "free", "stiffness", "damping", "preload")
-_LOOP = ("name", "joint", "to", "point", "perpendicular", "stiffness", "damping")
+_LOOP = ("name", "joint", "to", "point", "at", "perpendicular", "stiffness", "damping")
 _TOP = ("kind", "name", "description", "source", "arms", "joints", "loops", "segments")
 
 
@@ -166,6 +166,7 @@ class _Reader:
             None if pair is None else (self.direction(pair[0], of), self.direction(pair[1], of)),
             self.quantity(entry, "stiffness", "N/m", of) if soft else None,
             self.quantity(entry, "damping", "N*s/m", of),
+            self.place(entry["at"], f"{of}at") if "at" in entry else None,
         )
 
     def number_of_point(self, found: object, what: str) -> int:

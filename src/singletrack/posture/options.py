@@ -76,7 +76,14 @@ class Options:
             raise InputError(
                 f"arms = {self.arms}: only the posture leaned has straight or bent arms, not {self.posture}"
             )
+        if not isinstance(self.torso_lean, bool | np.bool_):
+            reason = f"torso_lean = {self.torso_lean!r:.80}, must be True or False"
+            raise InputError(reason, parameters=("torso_lean",), found=self.torso_lean, allowed="True or False")
         for what, unit, values in (("spring", "N m/rad", self.springs), ("damper", "N m s/rad", self.dampers)):
+            if not isinstance(values, Mapping):
+                allowed = 'a dictionary by joint, such as {"steer": 3.0}'
+                reason = f"{what}s = {values!r:.80}, must be {allowed}"
+                raise InputError(reason, parameters=(f"{what}s",), found=values, allowed=allowed)
             for joint, value in values.items():
                 _refuse_negative(f"{what} at {joint}", value, unit)
         object.__setattr__(self, "springs", dict(self.springs))

@@ -5,8 +5,9 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from singletrack.arrays import Array, as_arrays, cross, stack
-from singletrack.posture.motion import designs_last, rider_motion
+from singletrack.posture.motion import rider_motion
 from singletrack.posture.seated import steer_axis
+from singletrack.posture.twists import designs_last
 
 if TYPE_CHECKING:
     from singletrack.parameters import Bicycle

@@ -6,20 +6,27 @@ A description only, which both derivations of the equations read.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import pi
 from typing import TYPE_CHECKING
 
-from singletrack.arrays import Array, as_arrays, cross, unit_vector, vector
+from singletrack.arrays import Array, Fault, as_arrays, cross, dot, is_concrete, refuse_single, unit_vector, vector
 from singletrack.body import Segment, Skeleton, rider_segments, skeleton
+from singletrack.errors import PostureError
 from singletrack.parameters import Bicycle
-from singletrack.posture.mechanism import FRAME, HANDLEBAR, Direction, Mechanism, Place
+from singletrack.posture.mechanism import FRAME, HANDLEBAR, Direction, LoopPlan, Mechanism, Place
 from singletrack.posture.options import Options
 from singletrack.posture.shipped import mechanism_of
 from singletrack.posture.tree import Tree, make_tree
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from singletrack.parameters import Rider
 
 __all__ = ["Joint", "Loop", "Posture", "seat", "steer_axis"]
+
+#: Points further apart (m) and cosines larger than this are not closed.
+_CLOSED = 1e-9
 
 
 @dataclass(frozen=True, eq=False)
@@ -90,6 +97,8 @@ class Posture:
     loops : tuple of Loop
     carried_by : dict of str to str
         Name of the joint whose link a segment belongs to; segments that are not named stay with the rear frame.
+    faults : tuple of Fault
+        Designs of a batch in which a loop is not closed at rest.
     """
 
     name: str
@@ -99,6 +108,7 @@ class Posture:
     joints: tuple[Joint, ...] = ()
     loops: tuple[Loop, ...] = ()
     carried_by: dict[str, str] | None = None
+    faults: tuple[Fault, ...] = ()
 
     def chain(self, joint: str) -> tuple[Joint, ...]:
         """Return the joints from the rear frame out to ``joint``, in order ("" gives none)."""
@@ -141,7 +151,7 @@ def seat(bicycle: Bicycle, rider: Rider, options: Options | str = "rigid") -> Po
     InputError
         For an unknown name, a bicycle without frame geometry, a rider without forward lean angle.
     PostureError
-        If arms or legs do not reach.
+        If arms or legs do not reach, or a loop is not closed at rest.
 
     Examples
     --------
@@ -177,6 +187,7 @@ def seat(bicycle: Bicycle, rider: Rider, options: Options | str = "rigid") -> Po
         )
         for plan in mechanism.loops
     )
+    gaps = [fault for plan, loop in zip(mechanism.loops, loops, strict=True) for fault in resolve.gap(plan, loop)]
     return Posture(
         mechanism.name,
         _shoulder(mechanism),
@@ -185,6 +196,7 @@ def seat(bicycle: Bicycle, rider: Rider, options: Options | str = "rigid") -> Po
         joints,
         loops,
         {segment: _link(joint) for segment, joint in mechanism.segments.items() if joint != FRAME},
+        refuse_single(gaps, f"posture {mechanism.name}"),
     )
 
 
@@ -235,6 +247,22 @@ class _Resolver:
         assert direction.end is not None  # noqa: S101
         line = self.place(direction.end) - self.place(direction.start)
         return unit_vector(line if direction.across is None else cross(line, vector(*direction.across)))
+
+    def gap(self, plan: LoopPlan, loop: Loop) -> Iterator[Fault]:
+        """Yield the fault of a loop that cannot close: its points are apart, or its directions not perpendicular."""
+        if loop.directions is not None:
+            near, far = loop.directions
+            xp, (cosine,) = as_arrays(dot(near, far))
+            if is_concrete(cosine):
+                found = {"angle": xp.acos(xp.clip(xp.real(cosine), -1.0, 1.0)) * (180 / pi)}
+                text = f"loop {plan.name} cannot close: its directions are {{angle:.4g}} deg apart, must be 90 deg"
+                yield Fault(xp.abs(cosine) > _CLOSED, text, found, PostureError)
+        elif plan.at is not None:
+            xp, (apart,) = as_arrays(self.place(plan.at) - loop.point)
+            if is_concrete(apart):
+                distance = xp.sqrt(xp.real(dot(apart, apart)))
+                text = f"loop {plan.name} cannot close: its two points are {{apart:.4g}} m apart at rest"
+                yield Fault(distance > _CLOSED, text, {"apart": distance}, PostureError)
 
     def pair(self, directions: tuple[Direction, Direction]) -> tuple[Array, Array]:
         return self.direction(directions[0]), self.direction(directions[1])

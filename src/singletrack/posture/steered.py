@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from singletrack.arrays import Array, as_arrays, cross, stack
-from singletrack.posture.motion import designs_last, rider_motion
+from singletrack.posture.motion import rider_motion
 from singletrack.posture.seated import steer_axis
+from singletrack.posture.twists import designs_last
 
 if TYPE_CHECKING:
     from singletrack.parameters import Bicycle

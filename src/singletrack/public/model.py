@@ -9,8 +9,7 @@ from singletrack import closed_form
 from singletrack.body.oddities import warn_of_oddities
 from singletrack.linear import CriticalSpeeds, Modes, StateSpace, critical_speeds, eigenvalues, modes, state_space
 from singletrack.model import LinearModel
-from singletrack.posture import Options, named_posture
-from singletrack.public.arguments import require_posture, require_records
+from singletrack.posture import Options, named_posture, require_posture, require_records
 from singletrack.public.display import lines_of_model, table_of_model
 
 if TYPE_CHECKING:

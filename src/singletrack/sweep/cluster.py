@@ -8,6 +8,7 @@ here. Doing a chunk twice does no harm: its files are the same to the last bit, 
 from __future__ import annotations
 
 import importlib
+import logging
 import time
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
@@ -130,15 +131,38 @@ def _threads(client: Any, address: str) -> int:
 
 @contextmanager
 def _client(address: str) -> Iterator[Any]:
+    with _silence():
+        try:
+            client = _distributed().Client(address, timeout="10s")
+        except (OSError, ValueError, TypeError, RuntimeError) as error:
+            first = (str(error) or repr(error)).splitlines()[0]
+            raise _no_scheduler(address, first) from None
+        try:
+            yield client
+        finally:
+            client.close(timeout=2)
+
+
+@contextmanager
+def _silence() -> Iterator[None]:
+    """Keep the tracebacks that Dask logs of lost connections from the terminal: what is to be said is raised."""
+    _distributed()  # which sets up its loggers
+    loggers = [logging.getLogger(name) for name in ("asyncio", "tornado", "tornado.application", "distributed")]
+    loggers += [
+        logging.getLogger(name) for name in list(logging.root.manager.loggerDict) if name[:12] == "distributed."
+    ]
+    before = [logger.level for logger in loggers]
+    for logger in loggers:
+        logger.setLevel(logging.CRITICAL + 1)
     try:
-        client = _distributed().Client(address, timeout="10s")
-    except (OSError, ValueError, TypeError, RuntimeError) as error:
-        first = (str(error) or repr(error)).splitlines()[0]
-        raise InputError(
-            f"--scheduler {address}: no Dask scheduler answers ({first}); "
-            f"must be an address such as tls://192.168.0.5:8786; {_TLS}"
-        ) from None
-    try:
-        yield client
+        yield
     finally:
-        client.close(timeout=2)
+        for logger, level in zip(loggers, before, strict=True):
+            logger.setLevel(level)
+
+
+def _no_scheduler(address: str, reason: str) -> InputError:
+    return InputError(
+        f"--scheduler {address}: no Dask scheduler answers ({reason}); must be an address such as "
+        f"tls://192.168.0.5:8786; {_TLS}"
+    )

@@ -104,7 +104,7 @@ def check_folder(folder: Path) -> None:
     OSError
         If a file cannot be written there.
     """
-    path = folder / f".{secrets.token_hex(4)}"
+    path = folder / f"check{TEMPORARY}"
     try:
         _write(path, b"whether a file can be written here")
         sync_folder(folder)

@@ -36,7 +36,7 @@ class Entry:
     start : int
         Its first design.
     sums : dict of str to str
-        SHA-256 of its file of each array.
+        SHA-256 of its files, by name: one of each array.
     faults : dict of str to bool array, shape (k,)
         Which of its designs have which kind of fault.
     """
@@ -48,15 +48,30 @@ class Entry:
 
 @dataclass(frozen=True)
 class Journal:
-    """What a journal says: all that decides the numbers of the study, and the chunks that are on disk, by start."""
+    """What a journal says.
+
+    Attributes
+    ----------
+    described : dict
+        All that decides the numbers of the study, and their places.
+    columns : tuple of str
+        The arrays that each chunk has a file of.
+    files : dict of str to str
+        SHA-256 of the files that describe the store, by name.
+    entries : dict of int to Entry
+        The chunks that are on disk, by start.
+    """
 
     described: dict[str, Any]
-    entries: dict[int, Entry]
+    columns: tuple[str, ...]
+    files: dict[str, str]
+    entries: dict[int, Entry] = field(default_factory=dict)
 
 
-def write_header(path: Path, described: dict[str, Any], fingerprint: str) -> None:
-    """Begin a journal."""
-    append_line(path, _signed({"study": fingerprint, "format": FORMAT, "described": described}))
+def write_header(path: Path, fingerprint: str, journal: Journal) -> None:
+    """Begin a journal: all but its entries."""
+    header = {"described": journal.described, "columns": list(journal.columns), "files": journal.files}
+    append_line(path, _signed({"study": fingerprint, "format": FORMAT, **header}))
 
 
 def write_entry(path: Path, entry: Entry) -> None:
@@ -65,16 +80,8 @@ def write_entry(path: Path, entry: Entry) -> None:
     append_line(path, _signed({"start": entry.start, "sums": entry.sums, "faults": packed}))
 
 
-def read_journal(path: Path, count: int, chunk: int, columns: set[str]) -> Journal | None:
+def read_journal(path: Path) -> Journal | None:
     """Return what a journal says, or None if there is none, or only the beginning of its first line.
-
-    Parameters
-    ----------
-    path : Path
-    count, chunk : int
-        Designs in all, and in a chunk.
-    columns : set of str
-        The arrays that a chunk has a file of.
 
     Raises
     ------
@@ -97,11 +104,11 @@ def read_journal(path: Path, count: int, chunk: int, columns: set[str]) -> Journ
             f"{path}: does not say which study it belongs to (damaged, or written by another version of singletrack); "
             f"what is in {path.parent} cannot be trusted: remove that folder, or choose another output"
         )
-    entries = {}
+    journal = Journal(header["described"], tuple(header["columns"]), header["files"])
     for line in found:
-        if line is not None and (entry := _entry(line, count, chunk, columns)) is not None:
-            entries[entry.start] = entry
-    return Journal(header["described"], entries)
+        if line is not None and (entry := _entry(line, journal)) is not None:
+            journal.entries[entry.start] = entry
+    return journal
 
 
 def _signed(line: dict[str, Any]) -> str:
@@ -124,13 +131,11 @@ def _checked(text: bytes) -> dict[str, Any] | None:
     return line if check == _check(line) else None
 
 
-def _entry(line: dict[str, Any], count: int, chunk: int, columns: set[str]) -> Entry | None:
-    start, sums = line.get("start"), line.get("sums")
-    if not isinstance(start, int) or start not in range(0, count, chunk):
+def _entry(line: dict[str, Any], journal: Journal) -> Entry | None:
+    if "start" not in line:
         return None
-    if not isinstance(sums, dict) or set(sums) != columns:
-        return None
-    length = min(chunk, count - start)
+    start, sums = line["start"], line["sums"]
+    length = min(journal.described["chunk"], journal.described["designs"]["count"] - start)
     faults = {
         kind: np.unpackbits(np.frombuffer(base64.b64decode(packed), dtype=np.uint8), count=length).astype(bool)
         for kind, packed in line["faults"].items()

@@ -15,7 +15,7 @@ import numpy as np
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-__all__ = ["ARRAYS", "Column", "Layout", "encode", "file_name", "metadata", "status_of"]
+__all__ = ["ARRAYS", "Column", "Layout", "encode", "metadata", "status_of"]
 
 _STATUS = ("not_computed", "computed", "faulty")
 _ANSWER = ("not_computed", "found", "never", "faulty")
@@ -127,12 +127,6 @@ def _array(group: Any, layout: Layout, column: Column) -> None:
         compressors=None,
         attributes={"_ARRAY_DIMENSIONS": ["design", *column.dimensions], **column.attributes},
     )
-
-
-def file_name(column: str, start: int, layout: Layout) -> str:
-    """Return the name of the file with the designs from ``start`` on of an array."""
-    row = next(c for c in layout.columns if c.name == column).shape
-    return f"{column}/{'.'.join(str(i) for i in (start // layout.chunk, *(0 for _ in row)))}"
 
 
 def encode(described: Mapping[str, bytes], start: int, arrays: Mapping[str, np.ndarray]) -> dict[str, memoryview]:

@@ -5,8 +5,11 @@ from __future__ import annotations
 import dataclasses
 import hashlib
 import json
-from importlib.metadata import version
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import scipy
 
 from singletrack.parameters import Rider
 from singletrack.version import __version__
@@ -28,7 +31,7 @@ def programs() -> dict[str, str]:
 
     The compiled kernels are not among them: they give the bits of the plain ones.
     """
-    return {"singletrack": __version__, "numpy": version("numpy"), "scipy": version("scipy")}
+    return {"singletrack": __version__, "numpy": np.__version__, "scipy": scipy.__version__}
 
 
 def record_values(record: Bicycle | Rider) -> dict[str, Any]:
@@ -41,11 +44,17 @@ def record_values(record: Bicycle | Rider) -> dict[str, Any]:
 
 def options_values(options: Options) -> dict[str, Any]:
     """Return all of a rider's options as plain values, whatever they are."""
-    values = {entry.name: getattr(options, entry.name) for entry in dataclasses.fields(options)}
-    return {
-        name: {k: float(v) for k, v in value.items()} if isinstance(value, dict) else value
-        for name, value in values.items()
-    }
+    return {entry.name: _plain(getattr(options, entry.name)) for entry in dataclasses.fields(options)}
+
+
+def _plain(value: Any) -> Any:
+    if dataclasses.is_dataclass(value):
+        return {entry.name: _plain(getattr(value, entry.name)) for entry in dataclasses.fields(value)}
+    if isinstance(value, Mapping):
+        return {str(name): _plain(inner) for name, inner in value.items()}
+    if isinstance(value, list | tuple):
+        return [_plain(inner) for inner in value]
+    return value.tolist() if isinstance(value, np.ndarray | np.generic) else value
 
 
 def fingerprint_of(described: dict[str, Any]) -> str:

@@ -10,14 +10,17 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from singletrack.errors import InputError
-from singletrack.sweep.checksums import CHECKSUMS, damages, read_checksums
+from singletrack.sweep.checksums import CHECKSUMS, damages, is_intact, read_checksums
+from singletrack.sweep.journal import read_journal
 from singletrack.sweep.layout import CODES
-from singletrack.sweep.store import partial_of
+from singletrack.sweep.store import DATA, JOURNAL, partial_of
 
 if TYPE_CHECKING:
     import xarray
 
-__all__ = ["Condition", "check_sweep", "designs_to_dicts", "open_sweep"]
+    from singletrack.sweep.study import Study
+
+__all__ = ["Condition", "check_sweep", "designs_to_dicts", "is_finished", "open_sweep"]
 
 #: Answers of a design, with the array that says whether there is one.
 _ANSWERS = {"weave_speeds": "weave_status", "capsize_speeds": "capsize_status", "stable_ranges": "stable_status"}
@@ -42,13 +45,21 @@ class Condition:
     designs: dict[str, int]
 
 
-def open_sweep(path: str | Path) -> xarray.Dataset:
-    """Open a finished sweep: lazily, labelled, with units and provenance, every file checked as it is read.
+def open_sweep(path: str | Path, *, unfinished: bool = False) -> xarray.Dataset:
+    """Open a sweep: lazily, labelled, with units and provenance, every file checked as it is read.
 
     Designs are on the dimension ``design``, with the parameters that vary as coordinates; designs of a grid have a
-    dimension for each parameter instead. ``status`` says of each design whether it is computed (1) or faulty (2),
-    ``weave_status`` and its like whether a speed was found (1), there is none (2), or the design is faulty (3); the
-    codes stand in the attributes ``flag_values`` and ``flag_meanings``.
+    dimension for each parameter instead. ``status`` says of each design whether it is computed (1), faulty (2) or not
+    computed (0); ``weave_status`` and its like whether a speed was found (1), there is none (2), or the design is
+    faulty (3) or not computed (0). The codes stand in the attributes ``flag_values`` and ``flag_meanings``.
+
+    Parameters
+    ----------
+    path : str or Path
+        ``NAME.zarr``.
+    unfinished : bool
+        Open what there is of a sweep that is not finished. Its parameters are NaN where it is not computed, it stays
+        on the dimension ``design``, and there is no ``fault``.
 
     Raises
     ------
@@ -60,11 +71,16 @@ def open_sweep(path: str | Path) -> xarray.Dataset:
     from singletrack.sweep.checked_zarr import CheckedStore  # lazy: optional
 
     path = Path(path)
-    _refuse_unfinished(path)
-    store = CheckedStore(path, read_checksums(path))
+    if unfinished:
+        store = CheckedStore(partial_of(path) / DATA, _sums_so_far(path), complete=False)
+    else:
+        _refuse_unfinished(path)
+        store = CheckedStore(path, read_checksums(path))
     dataset: xarray.Dataset = xr.open_zarr(store, chunks=None, consolidated=True)
     described = json.loads(dataset.attrs["study"])["designs"]
     dataset = dataset.set_coords(described["order"])
+    if unfinished:
+        return dataset.drop_vars("fault")
     if described["method"] != "grid":
         return dataset
     return _unstacked(dataset, {name: described["vary"][name]["numbers"] for name in described["order"]})
@@ -84,6 +100,26 @@ def check_sweep(path: str | Path) -> Condition:
     found = damages(path, sums)
     designs = {} if found else _counts(open_sweep(path)["status"].values)
     return Condition(len(sums), tuple(found), designs)
+
+
+def is_finished(study: Study, path: Path) -> bool:
+    """Return whether there is the finished sweep of a study at a path, as far as its description goes."""
+    try:
+        sums = read_checksums(path)
+        attributes = json.loads((path / ".zattrs").read_bytes())
+    except (InputError, OSError, ValueError):
+        return False
+    return is_intact(path / ".zattrs", sums.get(".zattrs", "")) and attributes["fingerprint"] == study.fingerprint
+
+
+def _sums_so_far(path: Path) -> dict[str, str]:
+    found = read_journal(partial_of(path) / JOURNAL)
+    if found is None:
+        raise InputError(f"{partial_of(path)}: is not an unfinished sweep")
+    sums = dict(found.files)
+    for entry in found.entries.values():
+        sums |= entry.sums
+    return sums
 
 
 def _counts(status: np.ndarray) -> dict[str, int]:
@@ -110,27 +146,23 @@ def designs_to_dicts(dataset: xarray.Dataset, start: int = 0, stop: int | None =
     start, stop : int, optional
         The designs, by number.
     """
-    flat = (
-        dataset.stack(design=json.loads(dataset.attrs["study"])["designs"]["order"]) if _is_grid(dataset) else dataset
-    )
-    part = flat.isel(design=slice(start, stop))
     names = json.loads(dataset.attrs["study"])["designs"]["order"]
-    kinds = ["", *dataset.attrs["fault_kinds"]]
+    flat = dataset if "design" in dataset.dims else dataset.stack(design=names)  # xarray's
+    part = flat.isel(design=slice(start, stop))
+    kinds = ["", *dataset.attrs.get("fault_kinds", [])]
     records = []
     for i in range(part.sizes["design"]):
         one = part.isel(design=i)
-        record: dict[str, Any] = {name: float(one[name]) for name in names}
-        record["status"] = CODES["status"][int(one["status"])]
-        record["fault"] = kinds[int(one["fault"])] or None
+        status = CODES["status"][int(one["status"])]
+        record: dict[str, Any] = {name: None if status == "not_computed" else float(one[name]) for name in names}
+        record["status"] = status
+        if "fault" in part:
+            record["fault"] = kinds[int(one["fault"])] or None
         for name, code in _ANSWERS.items():
             if name in part:
                 record[name] = _answer(one[name].values, CODES[code][int(one[code])])
         records.append(record)
     return records
-
-
-def _is_grid(dataset: xarray.Dataset) -> bool:
-    return "design" not in dataset.dims
 
 
 def _answer(values: np.ndarray, status: str) -> list[Any] | None:

@@ -94,7 +94,12 @@ def run_sweep(
         raise InputError(f"workers = {workers}, must be a whole number from 1 to {_MOST_WORKERS}")
     try:
         with open_store(study, output) as store:
-            return _fill(store, scheduler, workers, progress)
+            try:
+                return _fill(store, scheduler, workers, progress)
+            except BaseException as error:
+                if not isinstance(error, SingletrackError | OSError | MemoryError):
+                    error.add_note(_kept(output))  # the command line says it
+                raise
     except (OSError, MemoryError) as error:
         raise _stopped(error, output) from None
 
@@ -128,8 +133,12 @@ def _entries(store: Store, left: list[tuple[int, int]], scheduler: str | None, w
     yield from (do(order, chunk) for chunk in work) if workers == 1 else do_in_processes(order, work, workers)
 
 
+def _kept(output: Path) -> str:
+    return f"what is done is kept in {partial_of(output)}: run the same command again to go on"
+
+
 def _stopped(error: OSError | MemoryError, output: Path) -> SingletrackError:
-    kept = f"what is done is kept in {partial_of(output)}: run the same command again to go on"
+    kept = _kept(output)
     if isinstance(error, MemoryError):
         return SingletrackError(f"{output}: there is not enough memory; {kept}")
     if error.errno in {errno.ENOSPC, errno.EDQUOT}:

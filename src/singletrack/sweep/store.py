@@ -32,14 +32,17 @@ from singletrack.sweep.durable import (
     write_files,
 )
 from singletrack.sweep.journal import Entry
-from singletrack.sweep.layout import Layout, encode, file_name, metadata
+from singletrack.sweep.layout import Layout, encode, metadata
 from singletrack.sweep.provenance import differences
 from singletrack.sweep.study import Study  # field of a record
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-__all__ = ["Store", "open_store", "partial_of"]
+__all__ = ["JOURNAL", "Store", "in_words", "open_store", "partial_of", "refuse_existing", "tidy"]
+
+#: Names in the folder of an unfinished sweep.
+JOURNAL, DATA, LOCK = "journal.jsonl", "data.zarr", "lock"
 
 
 def partial_of(output: Path) -> Path:
@@ -77,12 +80,12 @@ class Store:
     @property
     def data(self) -> Path:
         """The Zarr store inside :attr:`partial`."""
-        return self.partial / "data.zarr"
+        return self.partial / DATA
 
     @property
     def journal(self) -> Path:
         """The list of what is done."""
-        return self.partial / "journal.jsonl"
+        return self.partial / JOURNAL
 
     @property
     def files(self) -> dict[str, bytes]:
@@ -97,9 +100,8 @@ class Store:
 
     def resume(self) -> None:
         """Take up what an earlier run has left, or begin."""
-        columns = {column.name for column in self.layout.columns} - {"fault"}
         described = self.study.to_dict() | {"chunk": self.layout.chunk}
-        found = journal.read_journal(self.journal, self.layout.designs, self.layout.chunk, columns)
+        found = journal.read_journal(self.journal)
         if found is not None and (changed := differences(found.described, described)):
             raise InputError(
                 f"{self.partial}: holds an unfinished sweep of another study (or of this file before it was changed): "
@@ -114,15 +116,17 @@ class Store:
             self.entries = {start: e for start, e in found.entries.items() if self._is_intact(e)}
             self.damaged = len(found.entries) - len(self.entries)
         self.data.mkdir(exist_ok=True)
-        write_files(self.data, self.files)
+        files = self.files
+        write_files(self.data, files)
         if found is None:
-            journal.write_header(self.journal, described, self.study.fingerprint)
+            columns = tuple(column.name for column in self.layout.columns if column.name != "fault")
+            sums = {name: checksum(data) for name, data in files.items()}
+            journal.write_header(self.journal, self.study.fingerprint, journal.Journal(described, columns, sums))
         for folder in (self.partial, self.output.parent):
             sync_folder(folder)
 
     def _is_intact(self, entry: Entry) -> bool:
-        names = ((file_name(column, entry.start, self.layout), value) for column, value in entry.sums.items())
-        return all(is_intact(self.data / name, value) for name, value in names)
+        return all(is_intact(self.data / name, value) for name, value in entry.sums.items())
 
     def record(self, entry: Entry) -> None:
         """Note that a chunk is on disk."""
@@ -140,8 +144,7 @@ class Store:
         for entry in entries:
             fault = encode(described, entry.start, {"fault": self._fault_codes(entry, kinds)})
             write_files(self.data, fault)
-            sums |= {name: checksum(data) for name, data in fault.items()}
-            sums |= {file_name(column, entry.start, self.layout): value for column, value in entry.sums.items()}
+            sums |= entry.sums | {name: checksum(data) for name, data in fault.items()}
         write_files(self.data, {CHECKSUMS: checksum_lines(sums)})
         move_folder(self.data, self.output)
         _remove(self.partial)
@@ -173,7 +176,7 @@ def open_store(study: Study, output: Path) -> Iterator[Store]:
             pass
     except OSError as error:
         raise InputError(f"{partial}: cannot be written ({error.strerror}); must be in a folder that can be") from None
-    lock = FileLock(partial / "lock")
+    lock = FileLock(partial / LOCK)
     try:
         lock.acquire(timeout=0)
     except Timeout:
@@ -185,17 +188,25 @@ def open_store(study: Study, output: Path) -> Iterator[Store]:
         store.resume()
         yield store
     finally:
-        if not (partial / "journal.jsonl").exists():  # nothing was begun, or all is done
+        if not (partial / JOURNAL).exists():  # nothing was begun, or all is done
             _remove(partial)
         lock.release()
 
 
+def tidy(output: Path) -> None:
+    """Remove what a finished sweep has left beside its output, having been killed at the very end."""
+    partial = partial_of(output)
+    if (partial / JOURNAL).exists() and not (partial / DATA).exists():
+        with suppress(Timeout), FileLock(partial / LOCK, timeout=0):
+            _remove(partial)
+
+
 def _remove(partial: Path) -> None:
     """Remove the folder of an unfinished sweep, but nothing that is not ours."""
-    shutil.rmtree(partial / "data.zarr", ignore_errors=True)
-    for name in ("journal.jsonl", "lock"):
+    shutil.rmtree(partial / DATA, ignore_errors=True)
+    for path in (*partial.glob(f"*{TEMPORARY}"), partial / JOURNAL, partial / LOCK):
         with suppress(OSError):
-            (partial / name).unlink(missing_ok=True)
+            path.unlink(missing_ok=True)
     with suppress(OSError):
         partial.rmdir()
 

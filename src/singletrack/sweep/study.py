@@ -17,18 +17,24 @@ from singletrack.errors import InputError, unknown_name
 from singletrack.files.source import read_text
 from singletrack.files.speeds import parse_speeds
 from singletrack.files.toml_keys import place_of
-from singletrack.library import load_bicycle, load_rider, shipped
+from singletrack.library import load_bicycle, load_rider
 from singletrack.parameters import Bicycle, Rider
 from singletrack.posture import Options
 from singletrack.sweep.designs import Designs, make_designs
 from singletrack.sweep.provenance import fingerprint_of, options_values, programs, record_values
+from singletrack.sweep.sitting import beside, parse_options
 from singletrack.sweep.vary import parse_variation
 
 __all__ = ["KEEP", "Study", "load_study"]
 
 KEEP = ("matrices", "eigenvalues", "critical_speeds", "stable_ranges")
 
+_SITTING = ("posture", "shoulder", "arms", "torso_lean", "springs", "dampers")
+
 Method = Literal["grid", "list", "random", "latin-hypercube", "sobol"]
+
+
+_Number = Annotated[float, Field(strict=True)]  # true is no number
 
 
 class _Strict(BaseModel):
@@ -47,9 +53,13 @@ class _StudyFile(_Strict):
     description: str = ""
     bicycle: str
     rider: str | None = None
-    posture: Literal["rigid", "leaned", "upright"] = "rigid"
-    shoulder: Literal["abduction", "axial"] | None = None
-    speeds: str | float | list[float]
+    posture: str | None = None
+    shoulder: str | None = None
+    arms: str | None = None
+    torso_lean: Annotated[bool, Field(strict=True)] | None = None
+    springs: dict[str, str | _Number] | None = None
+    dampers: dict[str, str | _Number] | None = None
+    speeds: str | _Number | list[_Number]
     keep: Annotated[list[Literal["matrices", "eigenvalues", "critical_speeds", "stable_ranges"]], Field(min_length=1)]
     sampling: _Sampling = _Sampling()
     vary: Annotated[dict[str, Any], Field(min_length=1)]
@@ -129,8 +139,8 @@ def load_study(path: str | Path) -> Study:
     text = read_text(path)
     try:
         document = tomllib.loads(text)
-    except (tomllib.TOMLDecodeError, RecursionError) as error:
-        raise InputError(f"{path}: is not valid TOML: {error or 'nested too deeply'}") from None
+    except (ValueError, RecursionError) as error:  # not TOML, or a number of thousands of digits
+        raise InputError(f"{path}: is not valid TOML: {str(error)[:200] or 'nested too deeply'}") from None
     try:
         checked = _StudyFile.model_validate(document)
     except ValidationError as error:
@@ -140,10 +150,17 @@ def load_study(path: str | Path) -> Study:
 
 
 def _resolved(file: _StudyFile, path: Path, text: str) -> Study:
-    bicycle = load_bicycle(_name_or_file("bicycle", file.bicycle, path))
-    rider = None if file.rider is None else load_rider(_name_or_file("rider", file.rider, path))
-    if rider is None and file.posture != "rigid":
-        raise InputError(f"{_place(path, text, ('posture',))}: posture = {file.posture!r} needs a rider = ...")
+    bicycle = load_bicycle(beside("bicycle", file.bicycle, path.parent))
+    rider = None if file.rider is None else load_rider(beside("rider", file.rider, path.parent))
+    sitting = {name: found for name in _SITTING if (found := getattr(file, name)) is not None}
+    options = parse_options(sitting, path.parent, lambda name: _place(path, text, (name,)))
+    if rider is None:
+        if options.posture != Options().posture:
+            raise InputError(f"{_place(path, text, ('posture',))}: posture = {file.posture!r} needs a rider = ...")
+        try:
+            options.require_rider()
+        except InputError as error:
+            raise error.at(str(path)) from None
     variations = [
         parse_variation(name, found, _place(path, text, ("vary", name)), with_rider=rider is not None)
         for name, found in file.vary.items()
@@ -157,16 +174,11 @@ def _resolved(file: _StudyFile, path: Path, text: str) -> Study:
         description=file.description,
         bicycle=bicycle,
         rider=rider,
-        options=Options(file.posture, file.shoulder),
+        options=options,
         designs=designs,
         speeds=_speeds(file.speeds, _place(path, text, ("speeds",))),
         keep=tuple(name for name in KEEP if name in file.keep),
     )
-
-
-def _name_or_file(kind: str, found: str, study: Path) -> str | Path:
-    beside = study.parent / found
-    return beside if found not in shipped(kind) and beside.exists() else found
 
 
 def _speeds(found: str | float | list[float], place: str) -> np.ndarray:

@@ -52,7 +52,7 @@ def do(order: Order, chunk: Chunk) -> Entry:
     arrays |= {name: np.ascontiguousarray(chunk.rows[:, i]) for i, name in enumerate(order.task.names)}
     files: dict[str, Any] = encode(order.files, chunk.start, arrays)
     write_files(order.data, files)
-    return Entry(chunk.start, {name.partition("/")[0]: checksum(data) for name, data in files.items()}, faults)
+    return Entry(chunk.start, {name: checksum(data) for name, data in files.items()}, faults)
 
 
 def _refuse_stranger(order: Order) -> None:
