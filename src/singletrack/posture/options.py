@@ -46,7 +46,9 @@ class Options:
     torso_lean : bool
         Whether the torso may lean sideways, about a hinge along x at the hips.
     springs, dampers : mapping of str to array
-        Stiffness in N m/rad and damping in N m s/rad by joint, or ``steer``.
+        Stiffness in N m/rad and damping in N m s/rad by joint, or ``steer``; in N/m and N s/m by hand, or ``hands``.
+    fit : array, optional
+        Elbow angle in rad to which the rider's forward lean is fitted; without, he leans as he does.
 
     Raises
     ------
@@ -65,6 +67,7 @@ class Options:
     torso_lean: bool = False
     springs: Mapping[str, Array] = field(default_factory=dict)
     dampers: Mapping[str, Array] = field(default_factory=dict)
+    fit: Array | None = None
 
     def __post_init__(self) -> None:
         if isinstance(self.posture, str) and self.posture not in POSTURES and self.posture not in shipped("posture"):
@@ -111,6 +114,7 @@ class Options:
         parts += [f"arms {self.arms}"] if self.arms else []
         parts += ["torso lean"] if self.torso_lean else []
         parts += [f"spring at {joint}" for joint in self.springs] + [f"damper at {joint}" for joint in self.dampers]
+        parts += ["fitted"] if self.fit is not None else []
         return ", ".join(parts)
 
     def require_rider(self) -> None:
@@ -118,6 +122,7 @@ class Options:
         for what, wanted in (
             (f"posture {self.name}", self.posture != "rigid"),
             ("torso lean", self.torso_lean),
+            ("fit", self.fit is not None),
             *((f"a spring or damper at {name}", True) for name in (*self.springs, *self.dampers) if name != STEER),
         ):
             if wanted:
