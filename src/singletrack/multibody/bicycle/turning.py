@@ -18,16 +18,7 @@ if TYPE_CHECKING:
     from singletrack.arrays import Array
     from singletrack.multibody.engine.model import Model
 
-__all__ = [
-    "Circle",
-    "circle",
-    "free_turns",
-    "hands_free_family",
-    "held_turn",
-    "held_turns",
-    "resting",
-    "turn_eigenvalues",
-]
+__all__ = ["SMALL", "STEP", "Circle", "circle", "held_turn", "held_turns", "resting", "turn_eigenvalues"]
 
 RESTING = ("lean", "steer")
 SMALL = 1e-3
