@@ -13,7 +13,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from singletrack.arrays import Array, as_arrays, namespace, stack, vector
+from singletrack.linear.pencil import mass_units
 
 if TYPE_CHECKING:
     from singletrack.model import LinearModel
@@ -69,8 +72,6 @@ class CharacteristicPolynomial:
 
     def flat(self) -> tuple[CharacteristicPolynomial, tuple[int, ...]]:
         """Return the polynomials with all designs on one axis, and the shape (...) of the batch, as NumPy arrays."""
-        import numpy as np
-
         all_five = [np.asarray(a) for a in (self.a4, self.a3, self.a2, self.a1, self.a0)]
         batch = np.broadcast_shapes(*(a.shape[:-1] for a in all_five))
         one_axis = (np.broadcast_to(a, (*batch, a.shape[-1])).reshape(-1, a.shape[-1]) for a in all_five)
@@ -78,7 +79,7 @@ class CharacteristicPolynomial:
 
 
 def characteristic_polynomial(model: LinearModel) -> CharacteristicPolynomial:
-    """Return the characteristic polynomial of the coefficient matrices.
+    """Return the characteristic polynomial of two freedoms without springs and dampers, up to a factor.
 
     Examples
     --------
@@ -91,6 +92,10 @@ def characteristic_polynomial(model: LinearModel) -> CharacteristicPolynomial:
     """
     _, (g,) = as_arrays(model.gravity)
     entries = stack(model.matrices, -3)  # (..., 4, 2, 2)
+    if isinstance(entries, np.ndarray) and entries.dtype.kind == "f":
+        # No mass is too large or too small: a power of two for each coordinate, which changes no bit of the roots.
+        d = mass_units(entries[..., 0, :, :])
+        entries = entries * (d[..., :, None] * d[..., None, :])[..., None, :, :]
     e11, e12, e21, e22 = (entries[..., i, j] for i in (0, 1) for j in (0, 1))
     # For matrices A and B of the four, [A, B] = A11 B22 - A12 B21: det A = [A, A] and D(A, B) = [A, B] + [B, A].
     products = e11[..., :, None] * e22[..., None, :] - e12[..., :, None] * e21[..., None, :]

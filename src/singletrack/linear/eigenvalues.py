@@ -6,15 +6,20 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from singletrack.arrays import as_arrays, is_jax
+from singletrack.arrays import as_arrays, is_jax, namespace
 from singletrack.errors import InputError
 from singletrack.linear.characteristic import characteristic_polynomial
-from singletrack.linear.quartic.solve import CHUNK, solve_into
+from singletrack.linear.pencil import pencil
+from singletrack.linear.quartic.solve import CHUNK, quartic_roots, solve_into
 
 if TYPE_CHECKING:
     from singletrack.arrays import Array
     from singletrack.linear.characteristic import CharacteristicPolynomial
     from singletrack.model import LinearModel
+
+_FASTEST = 299_792_458.0
+#: Eigenvalue problems given to LAPACK at a time.
+_PROBLEMS = 4096
 
 __all__ = ["checked_speeds", "eigenmotions", "eigenvalues"]
 
@@ -25,24 +30,34 @@ def checked_speeds(speeds: Array) -> np.ndarray:
     Raises
     ------
     InputError
-        If they are not finite real numbers on at most one axis.
+        If they are not finite real numbers on at most one axis, or faster than light.
     """
     array = np.asarray(speeds)
+    allowed = "a finite number or a list of them, in m/s"
     if array.dtype.kind not in "iuf" or array.ndim > 1 or not np.isfinite(array).all():
-        raise InputError(f"speeds = {speeds!r}, must be a finite number or a list of them, in m/s")
-    return np.atleast_1d(array).astype(float)
+        raise InputError(
+            f"speeds = {speeds!r}, must be {allowed}", parameters=("speeds",), found=speeds, allowed=allowed
+        )
+    array = np.atleast_1d(array).astype(float)
+    if (np.abs(array) > _FASTEST).any():
+        fastest = array[np.argmax(np.abs(array))]
+        allowed = f"at most {_FASTEST:.0f} m/s, the speed of light"
+        text = f"speeds: found {fastest:g} m/s, must be {allowed}"
+        raise InputError(text, parameters=("speeds",), found=fastest, allowed=allowed)
+    return array
 
 
 def eigenvalues(model: LinearModel, speeds: Array) -> Array:
-    """Return the eigenvalues (..., n, 4) in 1/s at speeds (n,) in m/s, sorted by real then imaginary part.
+    """Return the eigenvalues (..., k, 2 n) in 1/s at speeds (k,) in m/s, sorted by real then imaginary part.
 
     Roots of a pair are exact conjugates, real roots have an imaginary part of exactly zero. Designs of a batch that
     are faulty get NaN.
 
     Notes
     -----
-    Roots of the characteristic quartic (:mod:`singletrack.linear.quartic`), whose coefficients are polynomials in the
-    speed. Matrices that are JAX arrays give JAX arrays, which can be differentiated (once) and compiled.
+    Two freedoms: roots of the characteristic quartic (:mod:`singletrack.linear.quartic`), whose coefficients are
+    polynomials in the speed. More freedoms: eigenvalues of the state matrix by LAPACK. Matrices that are JAX arrays
+    give JAX arrays, which can be differentiated (once) and compiled.
 
     Examples
     --------
@@ -50,17 +65,48 @@ def eigenvalues(model: LinearModel, speeds: Array) -> Array:
     >>> eigenvalues(coefficients(load_bicycle("benchmark")), 5.0).round(4)[0].tolist()
     [(-14.0784+0j), (-0.7753-4.4649j), (-0.7753+4.4649j), (-0.3229+0j)]
     """
-    if is_jax(model.M, model.C1, model.K0, model.K2, model.gravity, speeds):
-        from singletrack.linear.quartic.jax import quartic_roots  # lazy: optional
-
-        return quartic_roots(*characteristic_polynomial(model).monic_at(_one_axis(speeds)))
+    if is_jax(*model.matrices, model.C0, model.S0, model.gravity, speeds):
+        return _jax_eigenvalues(model, _one_axis(speeds))
     v = checked_speeds(speeds)
+    if model.freedoms > 2:
+        return _by_lapack(model, v)
     with np.errstate(all="ignore"):  # numbers out of range give NaN
-        polynomials, batch = characteristic_polynomial(model).flat()
-        roots = _roots_at(polynomials, v).reshape(*batch, len(v), 4)
+        if model.is_undamped:
+            polynomials, batch = characteristic_polynomial(model).flat()
+            roots = _roots_at(polynomials, v).reshape(*batch, len(v), 4)
+        else:
+            roots = quartic_roots(*monic_quartic(model.M, *at_speeds(model, v)))
     if model.faults:
-        roots[~np.broadcast_to(model.valid, batch)] = np.nan
+        roots = np.where(model.valid[..., None, None], roots, np.nan)
     return roots
+
+
+def _jax_eigenvalues(model: LinearModel, v: Array) -> Array:
+    if model.freedoms > 2:
+        from singletrack.linear.jax_pencil import pencil_roots  # lazy: optional
+
+        return pencil_roots(model.M[..., None, :, :], *at_speeds(model, v))
+    from singletrack.linear.quartic.jax import quartic_roots as jax_quartic_roots  # lazy: optional
+
+    if model.is_undamped:
+        return jax_quartic_roots(*characteristic_polynomial(model).monic_at(v))
+    return jax_quartic_roots(*monic_quartic(model.M, *at_speeds(model, v)))
+
+
+def _by_lapack(model: LinearModel, v: np.ndarray) -> np.ndarray:
+    """Return eigenvalues (..., k, 2 n) at speeds (k,) from the state matrices, chunk by chunk."""
+    p, batch = pencil(model)
+    roots = np.empty((len(p), len(v), 2 * p.freedoms), dtype=complex)
+    step = max(1, _PROBLEMS // max(len(v), 1))
+    for start in range(0, len(p), step):
+        rows = slice(start, start + step)
+        some = p.rows(rows)
+        for first in range(0, len(v), _PROBLEMS):
+            columns = slice(first, first + _PROBLEMS)
+            found = np.linalg.eigvals(some.state(v[columns] / some.speed[:, None]))
+            roots[rows, columns] = np.sort_complex(found) * some.rate[:, None, None]
+    roots[~p.told] = np.nan
+    return roots.reshape(*batch, *roots.shape[1:])
 
 
 def _one_axis(speeds: Array) -> Array:
@@ -82,33 +128,58 @@ def _roots_at(polynomials: CharacteristicPolynomial, v: np.ndarray) -> np.ndarra
     return roots
 
 
-def _per_speed(model: LinearModel, v: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return v C1 and g K0 + v^2 K2, each of shape (..., n, 2, 2)."""
-    C1, K0, K2 = (np.asarray(matrix)[..., None, :, :] for matrix in (model.C1, model.K0, model.K2))
+def at_speeds(model: LinearModel, v: Array) -> tuple[Array, Array]:
+    """Return C0 + v C1 and S0 + g K0 + v² K2, each of shape (..., k, n, n), at speeds (k,) in m/s."""
+    C1, K0, K2 = (_with_axis(matrix) for matrix in (model.C1, model.K0, model.K2))
     column = v[:, None, None]
-    gravity = np.asarray(model.gravity, dtype=float)[..., None, None, None]
-    return column * C1, gravity * K0 + column**2 * K2
+    gravity = namespace(model.gravity, v).asarray(model.gravity)[..., None, None, None]
+    damping, stiffness = column * C1, gravity * K0 + column**2 * K2
+    if model.is_undamped:
+        return damping, stiffness
+    return _with_axis(model.C0) + damping, _with_axis(model.S0) + stiffness
+
+
+def _with_axis(matrix: Array) -> Array:
+    return namespace(matrix).asarray(matrix)[..., None, :, :]
+
+
+def monic_quartic(M: Array, damping: Array, stiffness: Array) -> tuple[Array, Array, Array, Array]:
+    """Return b, c, d, e (..., k) of the characteristic quartic of two freedoms: M (..., 2, 2), the others per speed."""
+    M = _with_axis(M)
+
+    def mixed(A: Array, B: Array) -> Array:
+        return (
+            A[..., 0, 0] * B[..., 1, 1]
+            + B[..., 0, 0] * A[..., 1, 1]
+            - A[..., 0, 1] * B[..., 1, 0]
+            - B[..., 0, 1] * A[..., 1, 0]
+        )
+
+    lead = mixed(M, M) / 2
+    b, c = mixed(M, damping) / lead, (mixed(damping, damping) / 2 + mixed(M, stiffness)) / lead
+    return b, c, mixed(damping, stiffness) / lead, mixed(stiffness, stiffness) / 2 / lead
 
 
 def eigenmotions(model: LinearModel, speeds: Array, roots: np.ndarray) -> np.ndarray:
-    """Return the eigenmotion of each root: lean and steer, with lean normalised to one.
+    """Return the eigenmotion of each root: every coordinate, with lean normalised to one.
 
     Parameters
     ----------
     model : LinearModel
-    speeds : array, shape (n,)
+    speeds : array, shape (k,)
         In m/s.
-    roots : complex array, shape (..., n, 4)
+    roots : complex array, shape (..., k, 2 n)
         Eigenvalues at these speeds, in any order.
 
     Returns
     -------
-    complex array, shape (..., n, 4, 2)
-        (1, steer / lean); (0, 1) for a motion of pure steer.
+    complex array, shape (..., k, 2 n, n)
+        (1, steer / lean, ...); where lean takes no part, the largest is one: (0, 1) for a motion of pure steer.
 
     Notes
     -----
-    The null vector of the 2 x 2 matrix P(s) = M s² + v C1 s + g K0 + v² K2, from its larger row.
+    The null vector of P(s) = M s² + (C0 + v C1) s + S0 + g K0 + v² K2: of two freedoms from its larger row, of more
+    the singular vector of the least singular value.
 
     Examples
     --------
@@ -120,7 +191,9 @@ def eigenmotions(model: LinearModel, speeds: Array, roots: np.ndarray) -> np.nda
     (1.3, -10)
     """
     v = checked_speeds(speeds)
-    damping, stiffness = _per_speed(model, v)
+    if model.freedoms > 2:
+        return _null_vectors(model, v, np.asarray(roots))
+    damping, stiffness = (np.asarray(part) for part in at_speeds(model, v))
     s = np.asarray(roots)[..., None, None]
     M = np.asarray(model.M)[..., None, None, :, :]
     pencil = M * s**2 + damping[..., None, :, :] * s + stiffness[..., None, :, :]
@@ -131,3 +204,27 @@ def eigenmotions(model: LinearModel, speeds: Array, roots: np.ndarray) -> np.nda
     with np.errstate(invalid="ignore"):  # faulty designs of a batch are NaN throughout
         ratio = np.where(pure_steer, 1.0, steer / np.where(pure_steer, 1.0, lean))
     return np.stack([np.where(pure_steer, 0.0, 1.0 + 0j), ratio], axis=-1)
+
+
+def _null_vectors(model: LinearModel, v: np.ndarray, roots: np.ndarray) -> np.ndarray:
+    p, batch = pencil(model)
+    n = p.freedoms
+    flat = np.broadcast_to(roots, (*batch, *roots.shape[-2:])).reshape(len(p), *roots.shape[-2:])
+    motions = np.full((*flat.shape, n), np.nan, dtype=complex)
+    finite = np.isfinite(flat)
+    step = max(1, _PROBLEMS // max(flat[0].size, 1)) if len(flat) else 1
+    for start in range(0, len(p), step):
+        rows = slice(start, start + step)
+        design, at, column = np.nonzero(finite[rows])
+        some = p.rows(rows).rows(design)
+        s = (flat[rows][design, at, column] / some.rate)[:, None, None]
+        u = (v[at] / some.speed)[:, None, None]
+        value = s * s * np.eye(n) + s * (some.C0 + u * some.C1) + some.K0 + u * u * some.K2
+        motion = np.linalg.svd(value)[2][:, -1].conj() * some.masses
+        largest = np.take_along_axis(motion, np.argmax(np.abs(motion), axis=-1)[:, None], axis=-1)
+        lean = motion[:, :1]
+        no_lean = np.abs(lean) <= 1e-14 * np.abs(largest)
+        motion = motion / np.where(no_lean, largest, lean)
+        motion[:, :1] = np.where(no_lean, 0.0, 1.0)
+        motions[rows][design, at, column] = motion
+    return motions.reshape(*batch, *motions.shape[1:])

@@ -76,7 +76,8 @@ def state_space(model: LinearModel, speed: Array) -> StateSpace:
     if several:  # speeds on an axis of their own, after those of the batch
         whole = whole[..., None]
     speeds = v if several else v[0]
-    inverse = np.linalg.inv(whole.M)
+    M = np.where(whole.valid[..., None, None], whole.M, np.nan)  # faulty designs are NaN throughout
+    inverse = np.linalg.inv(M)
     stiffness, damping = np.asarray(whole.stiffness(speeds)), np.asarray(whole.damping(speeds))
     n, m = model.freedoms, len(model.inputs)
     shape = np.broadcast_shapes(stiffness.shape[:-2], damping.shape[:-2])

@@ -26,7 +26,7 @@ from singletrack.multibody.engine.elements import GROUND, Body, free, revolute
 from singletrack.multibody.engine.model import Model, build
 from singletrack.multibody.engine.system import System
 from singletrack.parameters.bodies import bicycle_bodies
-from singletrack.posture import STEER, Options, input_name, seat
+from singletrack.posture import STEER, Options, input_name, require_records, seat
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -143,6 +143,7 @@ def bicycle_model(bicycle: Bicycle, rider: Rider | None = None, options: Options
     >>> bicycle_model(load_bicycle("benchmark")).system.independent
     ('lean', 'steer', 'rear wheel')
     """
+    require_records(bicycle, rider)
     _refuse_batches(bicycle, rider)
     _refuse_skates(bicycle)
     options = Options.of(options)
@@ -209,6 +210,9 @@ def ride(
     >>> round(state.rate("x"), 3), state.rate("lean")
     (4.6, 0.5)
     """
+    if not isinstance(model, Model):
+        what, allowed = type(model).__name__, "a Model; type ride(bicycle_model(bicycle), speed)"
+        raise InputError(f"model is a {what}, must be {allowed}", parameters=("model",), found=model, allowed=allowed)
     upright = {"x": 0.0, "y": 0.0, "yaw": 0.0, "lean": 0.0, "steer": 0.0, "rear wheel": 0.0, "front wheel": 0.0}
     state = assemble(model, upright | dict(coordinates or {}), guess=guess)
     return move(state, {"rear wheel": -speed / model.system.parameters["rear radius"]} | dict(rates or {}))
