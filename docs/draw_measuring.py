@@ -39,7 +39,9 @@ def word(axes, point, text, side="right", further=0.0, **style):
     """Write a word beside a point (x, z), some points further than close by."""
     align, height, step = SIDES[side]
     step = tuple(part + further * np.sign(part) for part in step)
-    axes.annotate(text, point, step, textcoords="offset points", ha=align, va=height, fontsize=8, **style)
+    axes.annotate(
+        text, point, step, textcoords="offset points", ha=align, va=height, fontsize=8, annotation_clip=False, **style
+    )
 
 
 def measure(axes, start, end, name, offset=(0.0, 0.0), side="right", along=0.5, further=0.0):
@@ -86,9 +88,9 @@ def bicycle():
     beside = (-0.46, at[5][1] - 0.45)
     axes.plot(*zip(beside, inside, strict=True), color="0.6", lw=0.5, gid="dimension")
     word(axes, beside, "seat_tube_angle", "above")
-    axes.plot([at[11][0]] * 2, [at[11][1], at[11][1] - 0.52], color="0.6", lw=0.5)
-    axes.add_patch(Arc(at[11], 0.96, 0.96, theta1=248.5, theta2=270, lw=0.8))
-    word(axes, (at[11][0], at[11][1] - 0.52), "steer_axis_tilt", "above")
+    axes.plot([at[11][0]] * 2, [at[11][1], at[11][1] - 0.42], color="0.6", lw=0.5)
+    axes.add_patch(Arc(at[11], 0.6, 0.6, theta1=248.5, theta2=270, lw=0.8))
+    word(axes, (at[11][0], at[11][1] - 0.42), "steer_axis_tilt", "above")
     word(axes, at[19], "grip", "left")
     word(axes, at[13], "saddle", "above")
     return figure
