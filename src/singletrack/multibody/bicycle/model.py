@@ -39,8 +39,8 @@ if TYPE_CHECKING:
 
 __all__ = ["bicycle_model", "ride"]
 
-MOSTKINDS = 16
-KINDS: dict[Any, Model] = {}
+_MOST_DERIVED = 16
+_DERIVED: dict[Any, Model] = {}
 
 
 def _refuse_batches(*records: Bicycle | Rider | None) -> None:
@@ -164,11 +164,11 @@ def bicycle_model(bicycle: Bicycle, rider: Rider | None = None, options: Options
     links = tuple((joint.name, joint.parent, joint.child, joint.coordinates) for joint in system.joints)
     loops = tuple((closure.name, closure.first, closure.second) for closure in system.closures)
     key = (numbers.key(), links, loops)
-    if key not in KINDS:
-        while len(KINDS) >= MOSTKINDS:
-            KINDS.pop(next(iter(KINDS)))
-        KINDS[key] = build(system)
-    known = KINDS[key]
+    if key not in _DERIVED:
+        while len(_DERIVED) >= _MOST_DERIVED:
+            _DERIVED.pop(next(iter(_DERIVED)))
+        _DERIVED[key] = build(system)
+    known = _DERIVED[key]
     return _balanced(Model(system, known.equations, known.cache), freedoms)
 
 
