@@ -32,7 +32,7 @@ def test_directions_are_said_where_they_are_not_the_usual_ones():
 
 def test_never_and_could_not_tell_differ():
     assert set(critical_speed_lines(shipped_model("browser", "upright").critical_speeds()).values()) == {"never"}
-    unknown = dataclasses.replace(shipped_model("stratos", "rigid").critical_speeds(), told=np.array(False))
+    unknown = dataclasses.replace(shipped_model("stratos", "rigid").critical_speeds(), told=np.zeros((), dtype=bool))
     assert set(critical_speed_lines(unknown).values()) == {"could not tell"}
 
 
