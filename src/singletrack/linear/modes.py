@@ -86,13 +86,12 @@ class Modes:
             pair = (roots[..., :2].imag != 0) & (roots[..., :1] == np.conj(roots[..., 1:2]))
             steer_dominates = (size[..., 1:2] > np.delete(size, 1, axis=-1)).all(axis=-1)
             castering = (roots[..., 3].imag == 0) & (roots[..., 3].real < 0) & steer_dominates
-        four = np.concatenate([pair, roots[..., 2:3].imag == 0, castering[..., None]], axis=-1)
-        if self.dominant is None:
-            return four
-        further = self.dominant[..., 4:] == np.arange(4, roots.shape[-1]) // 2
-        applies: np.ndarray = np.concatenate([four & (self.dominant[..., :4] < 2), further], axis=-1)
-        applies &= np.isfinite(roots)
-        return applies
+        applies = np.concatenate([pair, roots[..., 2:3].imag == 0, castering[..., None]], axis=-1)
+        if self.dominant is not None:
+            further = self.dominant[..., 4:] == np.arange(4, roots.shape[-1]) // 2
+            applies = np.concatenate([applies & (self.dominant[..., :4] < 2), further], axis=-1)
+        known: np.ndarray = applies & np.isfinite(roots)
+        return known
 
     @property
     def steer_phase(self) -> np.ndarray:
@@ -161,7 +160,7 @@ def modes(model: LinearModel, speeds: Array) -> Modes:
 
 
 def _of_any_freedoms(model: LinearModel, v: np.ndarray) -> Modes:
-    p, batch = pencil(model)
+    p, _ = pencil(model)
     roots = eigenvalues(model, v)
     named = roots.reshape(len(p), len(v), 2 * model.freedoms).copy()
     told = np.flatnonzero(p.told & np.isfinite(named).all(axis=(1, 2)) & bool(len(v)))
