@@ -15,9 +15,11 @@ from singletrack.version import __version__
 
 if TYPE_CHECKING:
     from singletrack import spacar
+    from singletrack.body.fit import fit
     from singletrack.library import load_bicycle, load_rider
     from singletrack.parameters import Bicycle, Rider
     from singletrack.public import CoefficientMatrices, coefficients
+    from singletrack.public.turning import turn
     from singletrack.webpage import page
 
 __all__ = [
@@ -30,10 +32,12 @@ __all__ = [
     "SingletrackError",
     "__version__",
     "coefficients",
+    "fit",
     "load_bicycle",
     "load_rider",
     "page",
     "spacar",
+    "turn",
 ]
 
 # Where each public name lives; loaded on first use, so that `import singletrack` stays light.
@@ -42,8 +46,10 @@ _LAZY = {
     "CoefficientMatrices": "singletrack.public",
     "Rider": "singletrack.parameters",
     "coefficients": "singletrack.public",
+    "fit": "singletrack.body.fit",
     "load_bicycle": "singletrack.library",
     "load_rider": "singletrack.library",
+    "turn": "singletrack.public.turning",
     "page": "singletrack.webpage",
 }
 _MODULES = ("spacar",)

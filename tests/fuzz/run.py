@@ -31,7 +31,8 @@ SECONDS, MEGABYTES, LONGEST = 2.0, 300, 1500
 #: Hard stops, far beyond what is allowed: a runaway input ends the process instead of the machine.
 ADDRESS_SPACE = 4 << 30
 WHOLE = re.compile(
-    MADE["WHOLE"].pattern + r"|mass matrix|must be |is not a number|unknown unit|has a unit|standard deviation"
+    MADE["WHOLE"].pattern
+    + r"|mass matrix|must be |is not a number|unknown unit|has a unit|standard deviation|; allowed: "
 )
 
 

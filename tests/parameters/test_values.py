@@ -211,3 +211,37 @@ def test_shapes_that_do_not_fit_are_told():
 def test_texts_and_mappings_are_such(field, value):
     with pytest.raises(InputError, match=f"{field} = .*, must be"):
         STRATOS.replace(**{field: value})
+
+
+@pytest.mark.parametrize(
+    ("record", "changes", "says"),
+    [
+        (STRATOS, {"standard_deviations": {"trail": -0.001}}, "must be finite and zero or more"),
+        (STRATOS, {"standard_deviations": {"trail": np.nan}}, "must be finite and zero or more"),
+        (STRATOS, {"standard_deviations": {"trail": [0.001, -0.001]}}, "must be finite and zero or more"),
+        (STRATOS, {"standard_deviations": {"trail": "0.001"}}, "standard_deviations.'trail'. = '0.001' is text"),
+        (STRATOS, {"standard_deviations": {"trial": 0.001}}, "standard_deviations: unknown .* did you mean trail"),
+        (STRATOS, {"standard_deviations": {5: 0.001}}, "standard_deviations: unknown bicycle parameter '5'"),
+        (STRATOS, {"extras": {"v": "fast"}}, "extras.'v'. = 'fast' is text"),
+        (RIDER, {"shapes": {"torso": 5}}, "shapes.'torso'. = 5, must be a SegmentShape"),
+        (RIDER, {"shapes": {"tail": 5}}, "shapes: unknown segment 'tail'"),
+        (RIDER, {"forward_lean_angles": {"stratos": "63 deg"}}, "forward_lean_angle = '63 deg' is text"),
+    ],
+    ids=str,
+)
+def test_what_mappings_hold_is_checked(record, changes, says):
+    make = (lambda: record.replace(**changes).on(STRATOS)) if record is RIDER else (lambda: record.replace(**changes))
+    with pytest.raises(InputError, match=says):
+        make()
+
+
+def test_constructors_tell_what_is_missing_and_what_is_unknown():
+    with pytest.raises(InputError, match=r"trail, steer_axis_tilt, .* are missing") as caught:
+        Bicycle(wheel_base=1.0)
+    assert "wheel_base" not in caught.value.parameters
+    with pytest.raises(InputError, match="steer_axis_tilt = 90 deg - head angle"):
+        Bicycle(head_angle=1.2)
+    with pytest.raises(InputError, match="Rider takes its parameters by name"):
+        Rider(1.0)  # type: ignore[misc]
+    with pytest.raises(InputError, match=r"""must be a Bicycle; type load_bicycle\("stratos"\)"""):
+        RIDER.on("stratos")  # type: ignore[arg-type]

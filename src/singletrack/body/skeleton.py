@@ -109,18 +109,23 @@ def skeleton(bicycle: Bicycle, rider: Rider) -> Skeleton:
     >>> skeleton(load_bicycle("stratos"), load_rider("rider-a"))[13].round(4).tolist()
     [0.2677, 0.0, -0.942]
     """
-    missing = bicycle.missing_geometry()
-    if missing:
-        raise InputError(
-            f"{bicycle.name or 'bicycle'}: cannot seat a rider without frame geometry; missing: {', '.join(missing)}",
-            parameters=missing,
-        )
+    require_geometry(bicycle)
     rider = rider.on(bicycle)
     frame = frame_points(bicycle)
     body, elbow_axis, faults = _rider_points(frame, bicycle, rider)
     points = frame | body
     where = " on ".join(name for name in (rider.name, bicycle.name) if name)
     return Skeleton(stack([points[number] for number in range(1, 32)], -2), refuse_single(faults, where), elbow_axis)
+
+
+def require_geometry(bicycle: Bicycle) -> None:
+    """Raise InputError if a bicycle has no frame geometry, with the names that are missing."""
+    missing = bicycle.missing_geometry()
+    if missing:
+        raise InputError(
+            f"{bicycle.name or 'bicycle'}: cannot seat a rider without frame geometry; missing: {', '.join(missing)}",
+            parameters=missing,
+        )
 
 
 def frame_points(bicycle: Bicycle) -> dict[int, Array]:

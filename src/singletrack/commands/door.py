@@ -40,6 +40,7 @@ COMMANDS = {
     "page": "Write a page with sliders and a rider in motion, and open it in the browser.",
     "spacar": "Run a file of SPACAR: motion, small motions, equilibrium, buckling; rigid and flexible.",
     "sweep": "Compute many designs as a study file says; interrupted, the same command goes on.",
+    "turn": "Print a steady turn: lean, steer, hand torque, path, forces, and whether it is stable.",
 }
 
 _SETTINGS = {"help_option_names": ["-h", "--help"]}

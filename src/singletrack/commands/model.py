@@ -5,7 +5,9 @@ from __future__ import annotations
 import importlib
 import warnings
 from dataclasses import dataclass
+from math import degrees
 
+from singletrack.body.fit import elbow_angle, fit
 from singletrack.body.oddities import warn_of_oddities
 from singletrack.commands.model_options import ModelOptions, pairs
 from singletrack.errors import InputError, OddityWarning
@@ -14,6 +16,7 @@ from singletrack.library.load import override
 from singletrack.parameters import Bicycle, Rider
 from singletrack.parameters.bicycle import FRAME_GEOMETRY
 from singletrack.parameters.hints import unknown_parameter
+from singletrack.parameters.units import parse_quantity
 from singletrack.public import CoefficientMatrices
 
 __all__ = ["Made", "model_from", "seated"]
@@ -77,10 +80,31 @@ def seated(bicycle: Bicycle, options: ModelOptions) -> tuple[Bicycle, Rider | No
             raise unknown_parameter("", name, [*own, *(theirs if rider else [])]).at("--set")
         if rider is None and name in FRAME_GEOMETRY:
             _warn(f"--set {name}: changes no equation without a --rider (frame geometry says where a rider sits)")
+    before = (bicycle, rider)
     bicycle = override(bicycle, {name: text for name, text in changes.items() if name in own})
     if rider is not None:
         rider = override(rider, {name: text for name, text in changes.items() if name not in own})
-    return bicycle, rider, "".join(f", {name} = {text}" for name, text in changes.items())
+    words = "".join(f", {name} = {text}" for name, text in changes.items())
+    if options.fit or options.elbow_angle is not None:
+        rider = fit(bicycle, *_asked_to_fit(rider, options, before))
+        words += f", forward_lean_angle = {degrees(rider.forward_lean_angle):.4g} deg to fit"
+    return bicycle, rider, words
+
+
+def _asked_to_fit(
+    rider: Rider | None, options: ModelOptions, before: tuple[Bicycle, Rider | None]
+) -> tuple[Rider, float]:
+    """Return the rider and the elbow angle in rad to which he is fitted: as asked for, or as it was before changes."""
+    if rider is None:
+        raise InputError("--fit: needs a --rider")
+    if not options.fit:
+        raise InputError("--elbow-angle: says how --fit fits the rider, and there is no --fit")
+    if options.elbow_angle is not None:
+        try:
+            return rider, parse_quantity(options.elbow_angle, "rad").value
+        except InputError as error:
+            raise error.at("--elbow-angle") from None
+    return rider, float(elbow_angle(before[0], before[1] or rider))
 
 
 def _warn(text: str) -> None:

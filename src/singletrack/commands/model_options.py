@@ -59,6 +59,12 @@ class ModelOptions:
         list[str] | None,
         typer.Option("--damper", metavar="JOINT=VALUE", help='E.g. "steer=2 N*m*s/rad"; or hands (N*s/m).'),
     ] = None
+    fit: Annotated[
+        bool, typer.Option("--fit", help="Let the torso lean so that the elbows stay as bent as before --set.")
+    ] = False
+    elbow_angle: Annotated[
+        str | None, typer.Option("--elbow-angle", metavar="ANGLE", help='With --fit: bent so, e.g. "150 deg".')
+    ] = None
     engine: Annotated[EngineName, typer.Option("--engine", help="Which derivation to use.")] = EngineName.closed_form
     settings: Annotated[
         list[str] | None,

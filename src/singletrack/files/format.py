@@ -127,6 +127,14 @@ class Format:
         """
         return self.read_bicycle is None if self.holds_rider is None else self.holds_rider(clues)
 
+    def summary(self) -> str:
+        """Return what can be read from and written to files in this format, in words."""
+        reads = [kind for kind, read in (("bicycle", self.read_bicycle), ("rider", self.read_rider)) if read]
+        writes = [kind for kind in ("bicycle", "rider") if self.can_write(kind)]
+        parts = [f"reads {' and '.join(reads)}"] if reads else []
+        parts += [f"writes {' and '.join(writes)} ({', '.join(self.suffixes)})"] if writes else []
+        return f"{self.description}: {', '.join(parts) or self.used_by}"
+
     def can_write(self, kind: str) -> bool:
         """Tell whether this format can hold a record.
 

@@ -12,6 +12,7 @@ from singletrack.files.meijaard import bicycle_from_values, values_by_symbol
 from singletrack.files.principal import bicycle_from_principal, principal_values
 from singletrack.files.yaml_text import Item, numbers, read_mapping
 from singletrack.parameters.bicycle import FRAME_GEOMETRY, Bicycle
+from singletrack.parameters.split_fork import SPLIT_SYMBOLS
 from singletrack.parameters.symbols import MODEL_SYMBOLS
 
 if TYPE_CHECKING:
@@ -137,6 +138,8 @@ def _losses(record: Bicycle | Rider) -> tuple[str, ...]:
     geometry = [name for name in record.values() if name in FRAME_GEOMETRY]
     if geometry:
         found.append(f"a parameter set holds no {', '.join(geometry)}")
+    if any(symbol in record.extras for symbol in SPLIT_SYMBOLS):
+        found.append("a parameter set holds no handlebar and fork apart, only the front frame they make")
     return tuple(found)
 
 

@@ -7,9 +7,10 @@ import itertools
 import json
 import math
 import re
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from singletrack.errors import InputError
+from singletrack.parameters.rider import Rider
 from singletrack.parameters.units import parse_quantity
 
 if TYPE_CHECKING:
@@ -59,7 +60,7 @@ def _parameters(record: Record) -> Iterator[str]:
 
 
 def _lean_angles(record: Record, description: Parameter) -> list[str]:
-    angles: dict[str, Any] = getattr(record, "forward_lean_angles", {})
+    angles = record.forward_lean_angles if isinstance(record, Rider) else {}
     if not angles:
         return []
     deviations = record.standard_deviations
@@ -92,6 +93,12 @@ def unit_text(unit: str) -> str:
 
 def quantity_text(value: float, deviation: float | None, unit: str) -> str:
     """Return a number as TOML, with its unit; angles in degrees where that loses nothing.
+
+    Parameters
+    ----------
+    value, deviation : float
+    unit : str
+        The SI unit, as pint writes it.
 
     Examples
     --------

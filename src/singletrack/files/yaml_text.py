@@ -4,13 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from singletrack.errors import InputError
 from singletrack.files.named_values import NamedValues
 from singletrack.files.uncertain import parse_number
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from yaml import Event, Node
+
     from singletrack.parameters.units import Quantity
 
 __all__ = ["Item", "numbers", "read_mapping"]
@@ -31,6 +35,12 @@ class Item:
 def read_mapping(text: str, where: str) -> dict[str, Item]:
     """Return the mapping that a YAML text is.
 
+    Parameters
+    ----------
+    text : str
+    where : str
+        The file's name, for messages.
+
     Raises
     ------
     InputError
@@ -42,7 +52,7 @@ def read_mapping(text: str, where: str) -> dict[str, Item]:
         raise InputError(f"{where}: has {len(text)} characters, must have at most {_LONGEST}")
     try:
         # A loader of its own for each file keeps the parser from nesting further than any parameter file does.
-        _refuse_depth(yaml.parse(text, Loader=yaml.SafeLoader), yaml, where)
+        _refuse_depth(yaml.parse(text, Loader=yaml.SafeLoader), where)
         root = yaml.compose(text, Loader=yaml.SafeLoader)
     except yaml.YAMLError as error:
         mark = getattr(error, "problem_mark", None)
@@ -56,10 +66,12 @@ def read_mapping(text: str, where: str) -> dict[str, Item]:
         raise InputError(f"{where}: is not valid YAML") from None
     if root is None:
         raise InputError(f"{where}: is empty, must have lines such as c: 0.0686")
-    return _mapping(root, yaml, where)
+    return _mapping(root, where)
 
 
-def _refuse_depth(events: Any, yaml: Any, where: str) -> None:
+def _refuse_depth(events: Iterable[Event], where: str) -> None:
+    import yaml  # lazy, as above
+
     depth = 0
     for event in events:
         depth += isinstance(event, yaml.CollectionStartEvent) - isinstance(event, yaml.CollectionEndEvent)
@@ -71,7 +83,9 @@ def _refuse_depth(events: Any, yaml: Any, where: str) -> None:
             )
 
 
-def _mapping(node: Any, yaml: Any, where: str) -> dict[str, Item]:
+def _mapping(node: Node, where: str) -> dict[str, Item]:
+    import yaml  # lazy, as above
+
     if not isinstance(node, yaml.MappingNode):
         found = "a list" if isinstance(node, yaml.SequenceNode) else f"{str(node.value)[:60]!r}"
         raise InputError(
@@ -90,12 +104,20 @@ def _mapping(node: Any, yaml: Any, where: str) -> dict[str, Item]:
         if isinstance(value, yaml.SequenceNode):
             raise InputError(f"{where}, line {line}: {key.value[:60]} is a list, must be one value")
         scalar = isinstance(value, yaml.ScalarNode)
-        items[key.value] = Item(value.value if scalar else _mapping(value, yaml, where), line)
+        items[key.value] = Item(value.value if scalar else _mapping(value, where), line)
     return items
 
 
 def numbers(items: Mapping[str, Item], where: str, name: str = "", description: str = "") -> NamedValues:
     """Return the values of a mapping as numbers.
+
+    Parameters
+    ----------
+    items : mapping of str to Item
+    where : str
+        The file's name, for messages.
+    name, description : str
+        What the file calls itself.
 
     Raises
     ------

@@ -7,23 +7,19 @@ every posture, rather than be one lump.
 
 from __future__ import annotations
 
-import contextlib
-import io
 import itertools
 import math
-import warnings
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from singletrack.errors import InputError
 from singletrack.files.format import Format
 from singletrack.files.yaml_text import numbers, read_mapping
+from singletrack.files.yeadon_body import make_human, segment_bodies, shape_of
 from singletrack.parameters.rider import MASS_FRACTIONS, Rider
-from singletrack.parameters.shapes import SegmentShape
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
+    from singletrack.arrays import Array
     from singletrack.files.named_values import NamedValues
 
 __all__ = ["CONFIGURATION", "FORMAT", "MEASUREMENTS", "read_configuration", "read_yeadon"]
@@ -62,6 +58,12 @@ _LIMBS = (
 
 def read_configuration(text: str, where: str) -> float:
     """Return the forward lean angle in rad that a configuration of Yeadon's human means: 90 deg less ``somersault``.
+
+    Parameters
+    ----------
+    text : str
+    where : str
+        The file's name, for messages.
 
     Raises
     ------
@@ -104,12 +106,12 @@ def read_yeadon(text: str, where: str, forward_lean_angle: float | None = None) 
     """
     given = numbers(read_mapping(text, where), where, _short_name(where))
     metres, mass = _checked(given)
-    human = _human(given, metres, mass)
-    segments = {name: _combined(parts) for name, parts in _solids(human).items()}
+    human = make_human(metres, mass, where)
+    segments = segment_bodies(human)
     lengths = _lengths(human.meas)
     total = sum(MASS_FRACTIONS[f"{name}_mass_fraction"] * body[0] for name, body in segments.items())
-    values: dict[str, Any] = {**lengths, **_outlines(human.meas)}
-    fractions: dict[str, Any] = {f"{name}_mass_fraction": float(body[0] / total) for name, body in segments.items()}
+    values: dict[str, Array] = {**lengths, **_outlines(human.meas)}
+    fractions: dict[str, Array] = {f"{name}_mass_fraction": float(body[0] / total) for name, body in segments.items()}
     spans = {name: lengths.get(f"{name}_length", values["head_circumference"] / (2 * math.pi)) for name in segments}
 
     def make() -> Rider:
@@ -119,7 +121,7 @@ def read_yeadon(text: str, where: str, forward_lean_angle: float | None = None) 
             source=f"measurements {Path(where).name}, solids of the yeadon package",
             rider_mass=float(total),
             forward_lean_angle=forward_lean_angle,
-            shapes={name: _shape(body, spans[name]) for name, body in segments.items()},
+            shapes={name: shape_of(body, spans[name]) for name, body in segments.items()},
             **values,
             **fractions,
         )
@@ -158,83 +160,6 @@ def _checked(given: NamedValues) -> tuple[dict[str, float], float | None]:
     if mass is not None and not 1 < mass < 1000:
         raise InputError(f"{given.place('totalmass')}: totalmass = {mass:g} kg, must be between 1 and 1000 kg")
     return {name: values[name] * factor for name in MEASUREMENTS}, mass
-
-
-def _human(given: NamedValues, metres: dict[str, float], mass: float | None) -> Any:
-    try:
-        import yeadon  # optional
-    except ImportError:
-        raise InputError(
-            f"{given.where}: reading Yeadon's measurements needs yeadon: pip install 'singletrack[yeadon]'"
-        ) from None
-    import numpy as np
-
-    # The package prints and warns about odd cross sections and raises errors of all kinds.
-    try:
-        with warnings.catch_warnings(), contextlib.redirect_stdout(io.StringIO()), np.errstate(all="ignore"):
-            warnings.simplefilter("ignore")
-            human = yeadon.Human(dict(metres))
-            # Its densities are shared by all humans and would stay scaled: scale a copy.
-            human.segmental_densities = {key: dict(value) for key, value in human.segmental_densities.items()}
-            if mass is not None:
-                human.scale_human_by_mass(mass)
-    except Exception as error:  # noqa: BLE001  # the package raises bare Exception
-        reason = str(error).strip().splitlines()[0][:200] if str(error).strip() else type(error).__name__
-        raise InputError(f"{given.where}: the measurements make no body ({reason})") from None
-    return human
-
-
-# Solids of each segment by number in yeadon's stacks: s up the trunk, a down the left arm, j down the left leg.
-_STACKS = {
-    "torso": ("s", slice(0, 5)),
-    "head": ("s", slice(5, 8)),
-    "upper_arm": ("a", slice(0, 2)),
-    "lower_arm": ("a", slice(2, 7)),
-    "upper_leg": ("j", slice(0, 3)),
-    "lower_leg": ("j", slice(3, 9)),
-}
-# (mass, distance of the centre from the inner joint, moments: along, sideways, across)
-_Body = tuple[float, float, tuple[float, float, float]]
-
-
-def _solids(human: Any) -> dict[str, list[_Body]]:
-    """Return the solids of each segment, their centres measured from the segment's inner joint, outwards."""
-    stacks = {
-        "s": [*human.P.solids, *human.T.solids, *human.C.solids],
-        "a": [*human.A1.solids, *human.A2.solids],
-        "j": [*human.J1.solids, *human.J2.solids],
-    }
-    # The shoulders are at level 4 of the trunk; the head's centre is counted from there.
-    starts = {"head": human.meas["Ls5L"] - human.meas["Ls4L"]}
-    found = {}
-    for name, (stack, part) in _STACKS.items():
-        position, bodies = starts.get(name, 0.0), []
-        for solid in stacks[stack][part]:
-            # Limbs hang down from their joint, but their solids are counted upwards.
-            own = float(solid.rel_center_of_mass[2, 0])
-            inward = own if stack == "s" else float(solid.height) - own
-            tensor = solid.rel_inertia
-            moments = (float(tensor[2, 2]), float(tensor[0, 0]), float(tensor[1, 1]))
-            bodies.append((float(solid.mass), position + inward, moments))
-            position += float(solid.height)
-        found[name] = bodies
-    return found
-
-
-def _combined(parts: Sequence[_Body]) -> _Body:
-    mass = sum(m for m, _, _ in parts)
-    centre = sum(m * c for m, c, _ in parts) / mass if mass else math.nan
-    along = sum(moments[0] for _, _, moments in parts)
-    sideways = sum(moments[1] + m * (c - centre) ** 2 for m, c, moments in parts)
-    across = sum(moments[2] + m * (c - centre) ** 2 for m, c, moments in parts)
-    return mass, centre, (along, sideways, across)
-
-
-def _shape(body: _Body, length: float) -> SegmentShape:
-    mass, centre, moments = body
-    if not mass > 0 or min(moments) <= 0:
-        raise InputError("a segment has no mass or no inertia: its lengths must increase from joint to joint")
-    return SegmentShape(centre / length, *(math.sqrt(moment / mass) / length for moment in moments))
 
 
 def _lengths(m: dict[str, float]) -> dict[str, float]:

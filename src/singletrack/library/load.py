@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 from importlib import resources
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
 from singletrack.errors import InputError, SingletrackError, shown, unknown_name
 from singletrack.files.registry import read_any, read_bicycle, read_rider
@@ -17,6 +17,7 @@ from singletrack.parameters.units import parse_quantity
 if TYPE_CHECKING:
     from importlib.resources.abc import Traversable
 
+    from singletrack.arrays import Array
     from singletrack.parameters.bicycle import Bicycle
     from singletrack.parameters.rider import Rider
 
@@ -117,6 +118,14 @@ def _text(name_or_path: str | Path, *kinds: str) -> tuple[str, str]:
 def override(record: R, texts: dict[str, str], where: str = "--set") -> R:
     """Return a record with values replaced by texts such as ``"18.5 deg"``, as given on the command line.
 
+    Parameters
+    ----------
+    record : Bicycle or Rider
+    texts : dict of str to str
+        By parameter.
+    where : str
+        For messages.
+
     Raises
     ------
     InputError
@@ -129,7 +138,7 @@ def override(record: R, texts: dict[str, str], where: str = "--set") -> R:
     """
     descriptions = record.descriptions()
     record.require_known(dict.fromkeys(name for name in texts if name not in descriptions))
-    changes: dict[str, Any] = {}
+    changes: dict[str, Array] = {}
     deviations = dict(record.standard_deviations)
     for name, text in texts.items():
         try:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TypeAlias
 
 from singletrack.errors import InputError, unknown_name
 from singletrack.files.toml_write import unit_text
@@ -12,6 +12,9 @@ from singletrack.parameters.rider import Rider
 from singletrack.parameters.shapes import SEGMENTS
 
 __all__ = ["schema"]
+
+#: As the standard library writes it: texts, numbers, lists and mappings again.
+Schema: TypeAlias = dict[str, object]
 
 _NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
 # Units by the SI unit they convert to, as editors should offer them; the reader knows more.
@@ -23,7 +26,7 @@ _UNITS = {
 }
 
 
-def schema(kind: str) -> dict[str, Any]:
+def schema(kind: str) -> Schema:
     """Return the JSON schema (draft 2020-12) of a bicycle's or a rider's TOML file.
 
     Parameters
@@ -39,11 +42,7 @@ def schema(kind: str) -> dict[str, Any]:
     if kind not in kinds:
         raise InputError(unknown_name("kind", kind, kinds))
     descriptions = kinds[kind].descriptions()
-    properties = {name: _quantity(p) for name, p in descriptions.items()}
-    if kind == "rider":
-        one = properties["forward_lean_angle"]
-        several = {"type": "object", "additionalProperties": {"anyOf": one["anyOf"]}}
-        properties["forward_lean_angle"] = {**one, "anyOf": [*one["anyOf"], several]}
+    properties = {name: _quantity(p, several=name == "forward_lean_angle") for name, p in descriptions.items()}
     text = {"type": "string"}
     tables = {"segments": _segments()} if kind == "rider" else {"extras": _numbers()}
     return {
@@ -66,28 +65,36 @@ def schema(kind: str) -> dict[str, Any]:
     }
 
 
-def _quantity(p: Parameter) -> dict[str, Any]:
+def _quantity(p: Parameter, *, several: bool) -> Schema:
+    """Return the schema of a quantity, or of one for each bicycle."""
     unit = _UNITS.get(p.unit, r"[A-Za-z°].*")
     tail = rf"(?:\s*{unit})?" if unit else ""
-    number: dict[str, Any] = {"type": "number"}
+    number: Schema = {"type": "number"}
     if p.allowed in {"positive", "fraction"}:
         number["exclusiveMinimum"] = 0
+    if p.allowed == "not negative":
+        number["minimum"] = 0
     if p.allowed == "above ground":
         number["exclusiveMaximum"] = 0
     if p.allowed == "fraction":
         number["exclusiveMaximum"] = 1
     bracket = f" [{unit_text(p.unit)}]" if p.unit else ""
-    return {
-        "description": f"{p.meaning}{bracket}, {ALLOWED[p.allowed][0]}",
-        "anyOf": [number, {"type": "string", "pattern": rf"^\s*{_NUMBER}\s*(?:(?:\+/-|±)\s*{_NUMBER})?{tail}\s*$"}],
-    }
+    kinds: list[Schema] = [number, {"type": "string", "pattern": _pattern(tail)}]
+    if several:
+        kinds.append({"type": "object", "additionalProperties": {"anyOf": list(kinds)}})
+    return {"description": f"{p.meaning}{bracket}, {ALLOWED[p.allowed][0]}", "anyOf": kinds}
 
 
-def _numbers() -> dict[str, Any]:
-    return {"type": "object", "additionalProperties": {"type": "number"}}
+def _pattern(tail: str) -> str:
+    return rf"^\s*{_NUMBER}\s*(?:(?:\+/-|±)\s*{_NUMBER})?{tail}\s*$"
 
 
-def _segments() -> dict[str, Any]:
+def _numbers() -> Schema:
+    uncertain = {"type": "string", "pattern": _pattern("")}
+    return {"type": "object", "additionalProperties": {"anyOf": [{"type": "number"}, uncertain]}}
+
+
+def _segments() -> Schema:
     parts = ("centre", "gyration_along", "gyration_sideways", "gyration_across")
     shape = {
         "type": "object",

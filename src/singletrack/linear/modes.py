@@ -19,6 +19,7 @@ import numpy as np
 
 from singletrack.errors import InputError
 from singletrack.linear.characteristic import characteristic_polynomial
+from singletrack.linear.display import line_of_modes, table_of_modes
 from singletrack.linear.eigenvalues import checked_speeds, eigenmotions, eigenvalues
 from singletrack.linear.meetings import Meetings, find_meetings
 from singletrack.linear.naming import follow
@@ -98,6 +99,13 @@ class Modes:
         """Phase of steer relative to lean, shape (..., k, 2 n), in rad: negative where steer lags."""
         phase: np.ndarray = np.angle(self.eigenmotions[..., 1])
         return phase
+
+    def __repr__(self) -> str:
+        return line_of_modes(self)
+
+    def _repr_html_(self) -> str:
+        """Return a table, for notebooks."""
+        return table_of_modes(self)
 
     def to_dict(self) -> dict[str, Any]:
         """Return speeds, eigenvalues as [k][2 n][re, im] and the names of the columns, for JSON."""

@@ -86,19 +86,9 @@ def measure(
         raise InputError(unknown_name("centre_fit", centre_fit, CENTRE_FITS))
     deviations = deviations or {}
     check_measurements(raw, deviations)
-    uncertain = [name for name, deviation in deviations.items() if deviation > 0]
-    # One row for the value, one with an imaginary step in each uncertain measurement.
-    stepped = {name: np.full(len(uncertain) + 1, value, dtype=complex) for name, value in raw.items()}
-    for row, measurement in enumerate(uncertain, start=1):
-        stepped[measurement][row] += 1j * _STEP
-    with np.errstate(all="ignore"):
-        found, lines = _by_symbol(stepped, centre_fit)
-    symbols = [s for s in (*MODEL_SYMBOLS, *GEOMETRY_SYMBOLS, *SPLIT_SYMBOLS) if s in found]
-    table = np.stack([np.broadcast_to(found[symbol], len(uncertain) + 1) for symbol in symbols])
-    scaled = table[:, 1:].imag / _STEP * np.array([deviations[name] for name in uncertain])
-    covariance = scaled @ scaled.T
+    values, covariance, lines = _propagated(raw, deviations, centre_fit)
+    symbols = list(values)
     spread = dict(zip(symbols, np.sqrt(np.diag(covariance)).tolist(), strict=True))
-    values = dict(zip(symbols, table[:, 0].real.tolist(), strict=True))
     names = tuple(NAMES[symbol] for symbol in symbols if symbol in NAMES)
     bicycle = Bicycle(
         name=name,
@@ -109,8 +99,25 @@ def measure(
         **{NAMES[symbol]: value for symbol, value in values.items() if symbol in NAMES},
     )
     own = len(names)
-    real = {_BODIES[letter]: line[:, 0].real for letter, line in lines.items()}
-    return Measurement(bicycle, names, covariance[:own, :own], real)
+    return Measurement(bicycle, names, covariance[:own, :own], lines)
+
+
+def _propagated(
+    raw: Mapping[str, float], deviations: Mapping[str, float], centre_fit: str
+) -> tuple[dict[str, float], np.ndarray, dict[str, np.ndarray]]:
+    """Return values by symbol (parameters first), their covariance, and plumb lines by the body's name."""
+    uncertain = [name for name, deviation in deviations.items() if deviation > 0]
+    # One row for the value, one with an imaginary step in each uncertain measurement.
+    stepped = {name: np.full(len(uncertain) + 1, value, dtype=complex) for name, value in raw.items()}
+    for row, name in enumerate(uncertain, start=1):
+        stepped[name][row] += 1j * _STEP
+    with np.errstate(all="ignore"):
+        found, lines = _by_symbol(stepped, centre_fit)
+    symbols = [s for s in (*MODEL_SYMBOLS, *GEOMETRY_SYMBOLS, *SPLIT_SYMBOLS) if s in found]
+    table = np.stack([np.broadcast_to(found[symbol], len(uncertain) + 1) for symbol in symbols])
+    scaled = table[:, 1:].imag / _STEP * np.array([deviations[name] for name in uncertain])
+    values = dict(zip(symbols, table[:, 0].real.tolist(), strict=True))
+    return values, scaled @ scaled.T, {_BODIES[letter]: line[:, 0].real for letter, line in lines.items()}
 
 
 def _by_symbol(m: Mapping[str, np.ndarray], centre_fit: str) -> tuple[dict[str, np.ndarray], dict[str, np.ndarray]]:

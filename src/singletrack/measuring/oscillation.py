@@ -8,13 +8,11 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+
+import numpy as np
 
 from singletrack.arrays import Array
 from singletrack.errors import InputError
-
-if TYPE_CHECKING:
-    import numpy as np
 
 __all__ = ["Oscillation", "fit_oscillation"]
 
@@ -56,8 +54,6 @@ class Oscillation:
 
     def at(self, time: Array) -> np.ndarray:
         """Return the fitted signal at times (...) in s."""
-        import numpy as np
-
         t = np.asarray(time, dtype=float) - self.time[0]
         phase = 2 * math.pi * t / self.period
         fitted: np.ndarray = self.offset + np.exp(-self.decay * t) * (
@@ -102,21 +98,12 @@ def fit_oscillation(time: Array, signal: Array, where: str = "signal") -> Oscill
     >>> round(fit.period, 3), fit.period_deviation < 1e-3
     (1.6, True)
     """
-    import numpy as np
-
     t, y = _checked(time, signal, where)
     start, scale = t[0], float(np.std(y))
     t = t - start
     y_scaled = (y - y.mean()) / scale
     decay, omega = _search(t, y_scaled, where)
-    columns = _columns(t, decay, omega)
-    offset, cosine, sine = (float(c) for c in np.linalg.lstsq(columns, y_scaled, rcond=None)[0])
-    left = columns @ [offset, cosine, sine] - y_scaled
-    explained = 1 - float(left @ left) / len(t)
-    if explained < 0.5:  # less than half of the signal's variance
-        raise InputError(
-            f"{where}: no decaying oscillation: the best one explains {max(explained, 0):.0%} of the signal"
-        )
+    (offset, cosine, sine), left = _amplitudes(t, y_scaled, decay, omega, where)
     covariance, spread, correlation = _covariance(t, decay, omega, cosine, sine, left)
     period = 2 * math.pi / omega
     return Oscillation(
@@ -134,10 +121,24 @@ def fit_oscillation(time: Array, signal: Array, where: str = "signal") -> Oscill
     )
 
 
+def _amplitudes(
+    t: np.ndarray, y: np.ndarray, decay: float, omega: float, where: str
+) -> tuple[tuple[float, float, float], np.ndarray]:
+    """Return offset, cosine and sine of the best fit to a scaled signal, and what it leaves; refuse a poor one."""
+    columns = _columns(t, decay, omega)
+    offset, cosine, sine = np.linalg.lstsq(columns, y, rcond=None)[0].tolist()
+    left = columns @ [offset, cosine, sine] - y
+    explained = 1 - float(left @ left) / len(t)
+    if explained < 0.5:  # less than half of the signal's variance
+        raise InputError(
+            f"{where}: no decaying oscillation: the best one explains {max(explained, 0):.0%} of the signal"
+        )
+    return (offset, cosine, sine), left
+
+
 def _search(t: np.ndarray, y: np.ndarray, where: str) -> tuple[float, float]:
     """Return decay in 1/s and angular frequency in rad/s of the best fit to a scaled signal."""
-    import numpy as np
-    from scipy.optimize import least_squares
+    from scipy.optimize import least_squares  # lazy: heavy
 
     span, frequency = float(t[-1]), _spectral_peak(t, y)
     if frequency * span < 1.5:  # periods in the record
@@ -156,8 +157,6 @@ def _search(t: np.ndarray, y: np.ndarray, where: str) -> tuple[float, float]:
 
 
 def _checked(time: Array, signal: Array, where: str) -> tuple[np.ndarray, np.ndarray]:
-    import numpy as np
-
     t, y = np.asarray(time, dtype=float), np.asarray(signal, dtype=float)
     if t.ndim != 1 or t.shape != y.shape or not _FEWEST <= len(t) <= _LONGEST:
         raise InputError(
@@ -177,16 +176,12 @@ def _checked(time: Array, signal: Array, where: str) -> tuple[np.ndarray, np.nda
 
 def _columns(t: np.ndarray, decay: float, omega: float) -> np.ndarray:
     """Return the linear model's columns: offset, cosine, sine."""
-    import numpy as np
-
     envelope = np.exp(-decay * t)
     return np.stack([np.ones_like(t), envelope * np.cos(omega * t), envelope * np.sin(omega * t)], axis=-1)
 
 
 def _spectral_peak(t: np.ndarray, y: np.ndarray) -> float:
     """Return the frequency in Hz of the largest peak of the spectrum, finely resolved."""
-    import numpy as np
-
     count = len(t)
     even = np.interp(np.linspace(t[0], t[-1], count), t, y)
     padded = 8 * count
@@ -201,8 +196,6 @@ def _covariance(
     t: np.ndarray, decay: float, omega: float, cosine: float, sine: float, left: np.ndarray
 ) -> tuple[np.ndarray, float, float]:
     """Return the covariance of decay and omega, the residuals' standard deviation, their correlation."""
-    import numpy as np
-
     envelope, cos, sin = np.exp(-decay * t), np.cos(omega * t), np.sin(omega * t)
     oscillation = envelope * (cosine * cos + sine * sin)
     quadrature = envelope * (sine * cos - cosine * sin)
@@ -211,5 +204,5 @@ def _covariance(
     energy = float(left @ left)
     correlation = float(left[1:] @ left[:-1]) / energy if energy > 0 else 0.0
     r = min(max(correlation, 0.0), 0.99)
-    covariance: Any = np.linalg.pinv(jacobian.T @ jacobian)[:2, :2] * spread**2 * (1 + r) / (1 - r)
+    covariance: np.ndarray = np.linalg.pinv(jacobian.T @ jacobian)[:2, :2] * spread**2 * (1 + r) / (1 - r)
     return covariance, spread, correlation

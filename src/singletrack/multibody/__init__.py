@@ -2,7 +2,7 @@
 
 from singletrack.multibody.bicycle.coefficients import coefficients
 from singletrack.multibody.bicycle.model import bicycle_model, ride
-from singletrack.multibody.bicycle.turning import free_turns
+from singletrack.multibody.bicycle.turning import circle, free_turns, hands_free_family, held_turn, held_turns
 from singletrack.multibody.engine.assembly import assemble, move
 from singletrack.multibody.engine.connections import (
     Closure,
@@ -68,6 +68,7 @@ __all__ = [
     "assemble",
     "bicycle_model",
     "build",
+    "circle",
     "close_distance",
     "close_joint",
     "close_point",
@@ -76,6 +77,9 @@ __all__ = [
     "fixed",
     "free",
     "free_turns",
+    "hands_free_family",
+    "held_turn",
+    "held_turns",
     "linearise",
     "loop_forces",
     "move",

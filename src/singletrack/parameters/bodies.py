@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from singletrack.mechanics.rigid import PlanarBody, combine
 
@@ -52,7 +52,7 @@ def bodies_of_values(values: Mapping[str, Array]) -> dict[str, PlanarBody]:
     return frames | wheels
 
 
-def frame_parameters(end: str, body: PlanarBody) -> dict[str, Any]:
+def frame_parameters(end: str, body: PlanarBody) -> dict[str, float]:
     """Return a frame's body as parameters, by name: what :func:`bicycle_bodies` makes, undone.
 
     Parameters

@@ -91,17 +91,15 @@ def parameter(
 ) -> Any:
     """Declare a field of a record as a parameter (arguments as in :class:`Parameter`)."""
     metadata = {"parameter": Parameter(unit, symbol, meaning, allowed, group, optional, most)}
-    return field(default=None, metadata=metadata) if optional else field(metadata=metadata)
+    return field(default=None, metadata=metadata)  # what is missing is told by the record, all at once
 
 
 def faults_of_value(name: str, value: Array, description: Parameter) -> Iterator[Fault]:
-    """Yield what is wrong with one parameter: missing, not finite, not allowed, beyond all bounds.
+    """Yield what is wrong with one parameter: not finite, not allowed, beyond all bounds.
 
     ``value`` is None, a float, or a concrete array of numbers (...); a sound float yields nothing.
     """
     if value is None:
-        if not description.optional:
-            yield Fault(bad=True, text=f"{name} is missing", error=InputError, parameters=(name,))
         return
     words, test = ALLOWED[description.allowed]
     least, most = description.bounds

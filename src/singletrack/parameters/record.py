@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from math import inf
 from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 from singletrack.arrays import Array, is_concrete
@@ -13,7 +14,7 @@ from singletrack.errors import InputError, SingletrackError
 from singletrack.parameters.description import ALLOWED, Parameter, faults_of_value, parameter
 from singletrack.parameters.display import line_of, table_of
 from singletrack.parameters.hints import unknown_parameter
-from singletrack.parameters.values import FrozenDict, as_parameter
+from singletrack.parameters.values import FrozenDict, as_parameter, real_numbers
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -50,9 +51,17 @@ class Record:
     standard_deviations: Mapping[str, Array] = field(default_factory=dict)
     extras: Mapping[str, float] = field(default_factory=dict)
 
+    def __new__(cls, *unnamed: Any, **named: Any) -> Self:
+        """Refuse names that are none of its fields before Python does, with what to type instead."""
+        if unnamed:
+            raise InputError(f"{cls.__name__} takes its parameters by name, such as {cls.in_short[0]}=...")
+        cls.require_known(named)
+        return super().__new__(cls)
+
     def __post_init__(self) -> None:
         _take_texts(self)
         _take_values(self)
+        _check_mappings(self)
         object.__setattr__(self, "_standing", refuse_single(self.faults(), where=self.name))
 
     def __repr__(self) -> str:
@@ -92,9 +101,8 @@ class Record:
     @classmethod
     def require_known(cls, names: Mapping[str, Any], also: tuple[str, ...] = ()) -> None:
         """Raise InputError for the first name that is no field of this record (nor one of ``also``)."""
-        known = [f.name for f in dataclasses.fields(cls)]
         for name in names:
-            if name not in known and name not in also:
+            if name not in cls.__dataclass_fields__ and name not in also:
                 raise unknown_parameter(cls.kind, name, cls.descriptions())
 
     def faults(self) -> tuple[Fault, ...]:
@@ -108,6 +116,12 @@ class Record:
             return tuple(self._faults())
 
     def _faults(self) -> Iterator[Fault]:
+        needed = (name for name, description in _descriptions(type(self)).items() if not description.optional)
+        missing = tuple(name for name in needed if getattr(self, name) is None)
+        if missing:
+            verb = "is" if len(missing) == 1 else "are"
+            text = f"{', '.join(missing)} {verb} missing"
+            yield Fault(bad=True, text=text, error=InputError, parameters=missing, allowed="a number")
         for name, description in _descriptions(type(self)).items():
             value = getattr(self, name)
             if type(value) is float or is_concrete(value):
@@ -155,6 +169,36 @@ def _take_texts(record: Record) -> None:
                 reason = f"{f.name} = {value!r:.80}, must be a dictionary"
                 raise InputError(reason, parameters=(f.name,), found=value, allowed="a dictionary")
             own[f.name] = FrozenDict(value)
+
+
+def _check_mappings(record: Record) -> None:
+    """Raise what is wrong with standard deviations and extras: they are numbers, deviations of parameters."""
+    own = record.__dict__
+    for name, value in record.standard_deviations.items():
+        parameter = name.partition(" on ")[0] if isinstance(name, str) else name
+        if parameter not in _descriptions(type(record)) and name not in record.extras:
+            raise unknown_parameter(record.kind, str(name), record.descriptions()).at("standard_deviations")
+        number = _number_of(f"standard_deviations[{name!r}]", value)
+        if not _is_spread(number):
+            allowed = "finite and zero or more"
+            reason = f"standard_deviations[{name!r}] = {value!r:.80}, must be {allowed}"
+            raise InputError(reason, parameters=(name,), found=value, allowed=allowed, place=record.name)
+    own["extras"] = FrozenDict({name: _number_of(f"extras[{name!r}]", value) for name, value in record.extras.items()})
+
+
+def _number_of(name: str, value: Any) -> Array:
+    try:
+        return as_parameter(value)
+    except InputError as error:
+        raise error.of(name) from None
+
+
+def _is_spread(value: Array) -> bool:
+    """Tell whether a standard deviation is finite and not negative, as far as it can be looked at."""
+    if isinstance(value, float):
+        return 0 <= value < inf
+    numbers = real_numbers(value)
+    return numbers is None or bool(((numbers[0] >= 0) & (numbers[0] < inf)).all())
 
 
 def _take_values(record: Record) -> None:

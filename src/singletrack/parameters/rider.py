@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, ClassVar
 
 from singletrack.arrays import Array
 from singletrack.arrays.faults import Fault
-from singletrack.errors import InputError
+from singletrack.errors import InputError, unknown
 from singletrack.parameters.record import Record, parameter
-from singletrack.parameters.shapes import SegmentShape
+from singletrack.parameters.shapes import SEGMENTS, SegmentShape
 from singletrack.parameters.values import real_numbers
 
 if TYPE_CHECKING:
@@ -87,6 +87,15 @@ class Rider(Record):
     forward_lean_angles: Mapping[str, Array] = field(default_factory=dict)
     shapes: Mapping[str, SegmentShape] = field(default_factory=dict)
 
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        for name, shape in self.shapes.items():
+            if name not in SEGMENTS:
+                raise unknown("segment", str(name), SEGMENTS, place="shapes")
+            if not isinstance(shape, SegmentShape):
+                reason = f"shapes[{name!r}] = {shape!r:.80}, must be a SegmentShape"
+                raise InputError(reason, parameters=(name,), found=shape, allowed="a SegmentShape", place=self.name)
+
     def on(self, bicycle: Bicycle) -> Rider:
         """Return this rider with the forward lean angle on a bicycle.
 
@@ -95,6 +104,10 @@ class Rider(Record):
         InputError
             If the rider has neither a ``forward_lean_angle`` nor one for a bicycle of that name.
         """
+        if getattr(bicycle, "kind", "") != "bicycle":
+            hint = f'; type load_bicycle("{bicycle}")' if isinstance(bicycle, str) else ""
+            reason = f"bicycle is a {type(bicycle).__name__}, must be a Bicycle{hint}"
+            raise InputError(reason, parameters=("bicycle",), found=bicycle, allowed="a Bicycle")
         if self.forward_lean_angle is not None:
             return self
         if bicycle.name not in self.forward_lean_angles:

@@ -1,5 +1,6 @@
 """Which segments of the rider move with the steer, and how."""
 
+from singletrack.posture.arguments import require_bicycle, require_posture, require_records
 from singletrack.posture.bodies import SlavedBodies, slaved_bodies
 from singletrack.posture.mechanism import HANDLEBAR, Mechanism
 from singletrack.posture.options import ARMS, POSTURES, SHOULDERS, STEER, Options, input_name
@@ -27,6 +28,9 @@ __all__ = [
     "mechanism_of",
     "moved_skeleton",
     "named_posture",
+    "require_bicycle",
+    "require_posture",
+    "require_records",
     "seat",
     "slaved_bodies",
     "steer_axis",

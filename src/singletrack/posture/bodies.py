@@ -10,6 +10,7 @@ import numpy as np
 from singletrack.arrays import Array, as_arrays, is_concrete, stack
 from singletrack.arrays.faults import Fault, refuse_single
 from singletrack.errors import PostureError
+from singletrack.posture.mechanism import HANDLEBAR
 from singletrack.posture.motion import rider_motion
 from singletrack.posture.twists import Motion, designs_last
 
@@ -52,6 +53,8 @@ class SlavedBodies:
         Of dampers and springs at the rider's joints, in N m s and N m per rad; None without any.
     moving : tuple of int, optional
         Which bodies move at all; None: any may.
+    holds_handlebar : bool
+        Whether a hand is bound to the handlebar.
     """
 
     mass: Array
@@ -65,6 +68,7 @@ class SlavedBodies:
     damping: Array | None = None
     stiffness: Array | None = None
     moving: tuple[int, ...] | None = None
+    holds_handlebar: bool = False
 
 
 def slaved_bodies(posture: Posture, bicycle: Bicycle) -> SlavedBodies:
@@ -119,6 +123,7 @@ def slaved_bodies(posture: Posture, bicycle: Bicycle) -> SlavedBodies:
         damping=damping,
         stiffness=stiffness,
         moving=tuple(np.flatnonzero(carries.any(axis=1)).tolist()),
+        holds_handlebar=any(loop.to == HANDLEBAR for loop in posture.loops),
     )
 
 

@@ -46,7 +46,9 @@ class Options:
     torso_lean : bool
         Whether the torso may lean sideways, about a hinge along x at the hips.
     springs, dampers : mapping of str to array
-        Stiffness in N m/rad and damping in N m s/rad by joint, or ``steer``.
+        Stiffness in N m/rad and damping in N m s/rad by joint, or ``steer``; in N/m and N s/m by hand, or ``hands``.
+    fit : array, optional
+        Elbow angle in rad to which the rider's forward lean is fitted; without, he leans as he does.
 
     Raises
     ------
@@ -65,6 +67,7 @@ class Options:
     torso_lean: bool = False
     springs: Mapping[str, Array] = field(default_factory=dict)
     dampers: Mapping[str, Array] = field(default_factory=dict)
+    fit: Array | None = None
 
     def __post_init__(self) -> None:
         if isinstance(self.posture, str) and self.posture not in POSTURES and self.posture not in shipped("posture"):
@@ -76,7 +79,14 @@ class Options:
             raise InputError(
                 f"arms = {self.arms}: only the posture leaned has straight or bent arms, not {self.posture}"
             )
+        if not isinstance(self.torso_lean, bool | np.bool_):
+            reason = f"torso_lean = {self.torso_lean!r:.80}, must be True or False"
+            raise InputError(reason, parameters=("torso_lean",), found=self.torso_lean, allowed="True or False")
         for what, unit, values in (("spring", "N m/rad", self.springs), ("damper", "N m s/rad", self.dampers)):
+            if not isinstance(values, Mapping):
+                allowed = 'a dictionary by joint, such as {"steer": 3.0}'
+                reason = f"{what}s = {values!r:.80}, must be {allowed}"
+                raise InputError(reason, parameters=(f"{what}s",), found=values, allowed=allowed)
             for joint, value in values.items():
                 _refuse_negative(f"{what} at {joint}", value, unit)
         object.__setattr__(self, "springs", dict(self.springs))
@@ -104,6 +114,7 @@ class Options:
         parts += [f"arms {self.arms}"] if self.arms else []
         parts += ["torso lean"] if self.torso_lean else []
         parts += [f"spring at {joint}" for joint in self.springs] + [f"damper at {joint}" for joint in self.dampers]
+        parts += ["fitted"] if self.fit is not None else []
         return ", ".join(parts)
 
     def require_rider(self) -> None:
@@ -111,6 +122,7 @@ class Options:
         for what, wanted in (
             (f"posture {self.name}", self.posture != "rigid"),
             ("torso lean", self.torso_lean),
+            ("fit", self.fit is not None),
             *((f"a spring or damper at {name}", True) for name in (*self.springs, *self.dampers) if name != STEER),
         ):
             if wanted:

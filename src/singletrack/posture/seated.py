@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 from singletrack.arrays import Array, Fault, as_arrays, cross, dot, is_concrete, refuse_single, unit_vector, vector
 from singletrack.body import Segment, Skeleton, rider_segments, skeleton
+from singletrack.body.fit import fitted
 from singletrack.errors import PostureError
 from singletrack.parameters import Bicycle
 from singletrack.posture.mechanism import FRAME, HANDLEBAR, Direction, LoopPlan, Mechanism, Place
@@ -161,6 +162,9 @@ def seat(bicycle: Bicycle, rider: Rider, options: Options | str = "rigid") -> Po
     """
     options = Options.of(options)
     mechanism = mechanism_of(options)
+    unfitted: tuple[Fault, ...] = ()
+    if options.fit is not None:
+        rider, unfitted = fitted(bicycle, rider, options.fit)
     points = skeleton(bicycle, rider)
     resolve = _Resolver(points, bicycle)
     joints = tuple(
@@ -196,7 +200,7 @@ def seat(bicycle: Bicycle, rider: Rider, options: Options | str = "rigid") -> Po
         joints,
         loops,
         {segment: _link(joint) for segment, joint in mechanism.segments.items() if joint != FRAME},
-        refuse_single(gaps, f"posture {mechanism.name}"),
+        refuse_single(gaps, f"posture {mechanism.name}") + unfitted,
     )
 
 

@@ -1,14 +1,6 @@
 """What a program asks for: a model of a bicycle with its rider, and everything that can be asked of it."""
 
 from singletrack.body.oddities import warn_of_oddities
-from singletrack.public.arguments import require_bicycle, require_posture, require_records
 from singletrack.public.model import CoefficientMatrices, coefficients
 
-__all__ = [
-    "CoefficientMatrices",
-    "coefficients",
-    "require_bicycle",
-    "require_posture",
-    "require_records",
-    "warn_of_oddities",
-]
+__all__ = ["CoefficientMatrices", "coefficients", "warn_of_oddities"]

@@ -9,8 +9,7 @@ from singletrack import closed_form
 from singletrack.body.oddities import warn_of_oddities
 from singletrack.linear import CriticalSpeeds, Modes, StateSpace, critical_speeds, eigenvalues, modes, state_space
 from singletrack.model import LinearModel
-from singletrack.posture import Options, named_posture
-from singletrack.public.arguments import require_posture, require_records
+from singletrack.posture import Options, named_posture, require_posture, require_records
 from singletrack.public.display import lines_of_model, table_of_model
 
 if TYPE_CHECKING:
@@ -85,6 +84,7 @@ def coefficients(
     torso_lean: bool = False,
     springs: Mapping[str, Array] | None = None,
     dampers: Mapping[str, Array] | None = None,
+    fit: Array | None = None,
 ) -> CoefficientMatrices:
     """Return the linearised equations of motion of a bicycle, alone or with a rider.
 
@@ -106,7 +106,9 @@ def coefficients(
     torso_lean : bool
         Whether the torso may lean sideways, about a hinge along x at the hips: one more coordinate.
     springs, dampers : mapping of str to array, optional
-        Stiffness in N m/rad and damping in N m s/rad by joint, or ``steer``.
+        Stiffness in N m/rad and damping in N m s/rad by joint, or ``steer``; in N/m and N s/m by hand, or ``hands``.
+    fit : array, optional
+        Elbow angle in rad (pi: stretched) to which the rider's forward lean is fitted, whatever it was.
 
     Returns
     -------
@@ -135,6 +137,6 @@ def coefficients(
     """
     require_records(bicycle, rider)
     require_posture(posture)
-    options = Options(named_posture(posture), shoulder, arms, torso_lean, springs or {}, dampers or {})
+    options = Options(named_posture(posture), shoulder, arms, torso_lean, springs or {}, dampers or {}, fit)
     warn_of_oddities(bicycle, rider)
     return CoefficientMatrices.of(closed_form.coefficients(bicycle, rider, options))

@@ -25,7 +25,7 @@ _PROBLEMS, _DESIGNS = 2**18, 4096
 
 
 def chunk_size(speeds: int) -> int:
-    """Return the number of designs of a chunk.
+    """Return the number of designs of a chunk of a sweep over so many speeds.
 
     >>> chunk_size(101), chunk_size(1)
     (2595, 4096)
@@ -58,6 +58,12 @@ def compute_chunk(task: Task, rows: np.ndarray) -> tuple[dict[str, np.ndarray], 
 
     Of those, the designs (k,) that are faulty are given as a mask for each kind of fault: its text with names for the
     values, which differ from design to design. All results of a faulty design are NaN, and its status says so.
+
+    Parameters
+    ----------
+    task : Task
+    rows : array, shape (k, parameters)
+        The values of the designs, SI units.
     """
     use_compiled()
     model = _model(task, rows)

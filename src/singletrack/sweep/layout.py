@@ -43,7 +43,7 @@ CODES = {"status": _STATUS, "weave_status": _ANSWER, "capsize_status": _ANSWER, 
 
 
 def status_of(values: np.ndarray) -> np.ndarray:
-    """Return for speeds (k, ...) of sound designs whether there are any: 1 found, 2 never, shape (k,)."""
+    """Return for speeds, values of shape (k, ...), of sound designs whether there are any: 1 found, 2 never, (k,)."""
     found = np.isfinite(values).reshape(len(values), -1).any(axis=1)
     return np.where(found, np.int8(_ANSWER.index("found")), np.int8(_ANSWER.index("never")))
 
@@ -72,7 +72,7 @@ class Column:
 
     @classmethod
     def of_results(cls, name: str, row: np.ndarray) -> Column:
-        """Return the column of an array of results, from one row of it."""
+        """Return the column of an array of results by name, from one row of it, shape (...) as for one design."""
         dimensions, unit, meaning = ARRAYS[name]
         attributes: dict[str, Any] = {"units": unit, "long_name": meaning}
         if name in CODES:
@@ -98,7 +98,7 @@ class Layout:
 
 
 def metadata(layout: Layout, attributes: Mapping[str, Any]) -> dict[str, bytes]:
-    """Return the files of a store without its chunks, by name: descriptions, labels, and all of it in one place."""
+    """Return the files of a store of a layout without its chunks, by name: descriptions, attributes, labels."""
     import zarr  # lazy: optional
     from zarr.storage import MemoryStore
 
@@ -130,7 +130,17 @@ def _array(group: Any, layout: Layout, column: Column) -> None:
 
 
 def encode(described: Mapping[str, bytes], start: int, arrays: Mapping[str, np.ndarray]) -> dict[str, memoryview]:
-    """Return the files of one chunk, by name, from its arrays (k, ...) and the files that describe the store."""
+    """Return the files of one chunk, by name.
+
+    Parameters
+    ----------
+    described : mapping of str to bytes
+        The files that describe the store, of :func:`metadata`.
+    start : int
+        The first design of the chunk.
+    arrays : mapping of str to array, shape (k, ...)
+        A row for each design.
+    """
     import zarr
     from zarr.core.buffer import default_buffer_prototype
     from zarr.storage import MemoryStore

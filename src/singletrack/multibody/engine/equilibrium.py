@@ -17,10 +17,11 @@ if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
     from singletrack.arrays import Array
+    from singletrack.multibody.engine.dynamics import Response
     from singletrack.multibody.engine.model import Model
     from singletrack.multibody.engine.variations import Variations
 
-__all__ = ["SteadyMotion", "steady_motion"]
+__all__ = ["STEADY", "Search", "SteadyMotion", "derivative", "moved", "plan", "residual", "steady_motion"]
 
 STEPS = 60
 STEADY = 1e-10
@@ -35,7 +36,7 @@ class SteadyMotion:
 
 
 @dataclass(frozen=True, eq=False)
-class _Search:
+class Search:
     """What is sought, as indices: coordinates, independent speeds, inputs; and which coordinates must rest."""
 
     coordinates: list[int]
@@ -90,26 +91,27 @@ def steady_motion(
     """
     given = dict(coordinates or {})
     start = assemble(model, given, parameters, guess=guess)
-    search = _plan(start, given, rates or {}, resting, adjust)
+    search = plan(start, given, rates or {}, resting, adjust)
     u_i = np.array([(rates or {}).get(n, (guess_rates or {}).get(n, 0.0)) for n in start.freedoms])
     f = input_vector(model.system, inputs)
     state = _with_speeds(start, start.q, u_i)
     last = np.inf
     for _ in range(STEPS):
-        response, residual, variations = _residual(state, f, search)
-        left = float(np.max(abs(residual), initial=0.0)) / max(1.0, float(np.max(abs(response))))
+        response, left_over, variations = residual(state, f, search)
+        left = float(np.max(abs(left_over), initial=0.0)) / max(1.0, float(np.max(abs(response.a))))
         last, better = left, left < 0.5 * last
         if left <= STEADY and not better:
             names = [given_input.name for given_input in model.system.inputs]
             return SteadyMotion(state, dict(zip(names, f.tolist(), strict=True)))
-        state, f = _step(state, f, search, residual, variations)
+        state, f = _step(state, f, search, left_over, variations)
     free = ", ".join(f"{n}'" for n in state.freedoms)
-    raise ModelError(f"no steady motion found near the guess: {free} still change by {residual[: len(u_i)]}")
+    raise ModelError(f"no steady motion found near the guess: {free} still change by {left_over[: len(u_i)]}")
 
 
-def _plan(
+def plan(
     start: State, given: Mapping[str, float], rates: Mapping[str, float], resting: Sequence[str], adjust: Sequence[str]
-) -> _Search:
+) -> Search:
+    """Return what is sought, for what is given by name."""
     system, parts = start.model.system, start.partition
     free = [system.coordinates[i] for i in parts.independent_coordinates]
     for name in resting:
@@ -122,7 +124,7 @@ def _plan(
     for name in adjust:
         if name not in known_inputs:
             raise ModelError(unknown_name("input", name, known_inputs))
-    return _Search(
+    return Search(
         [free.index(name) for name in resting if name not in given],
         [i for i, name in enumerate(start.freedoms) if name not in rates],
         [known_inputs.index(name) for name in adjust],
@@ -135,22 +137,34 @@ def _with_speeds(state: State, q: Array, u_i: Array) -> State:
     return State(state.model, state.parameters, state.partition, q, span_of(state.partition, jacobian) @ u_i)
 
 
-def _residual(state: State, f: Array, search: _Search) -> tuple[Array, Array, Variations]:
-    """Return all accelerations, what must vanish (independent accelerations, rates at rest) and the derivatives."""
+def residual(state: State, f: Array, search: Search) -> tuple[Response, Array, Variations]:
+    """Return the response, what must vanish (independent accelerations, rates at rest) and the derivatives."""
     names = [given.name for given in state.model.system.inputs]
     response = accelerations(state, dict(zip(names, f.tolist(), strict=True)))
     independent = list(state.partition.independent_speeds)
-    residual = np.concatenate([response.a[independent], state.u[search.resting]])
-    return response.a, residual, vary(state, response, f)
+    left_over = np.concatenate([response.a[independent], state.u[search.resting]])
+    return response, left_over, vary(state, response, f)
 
 
-def _step(state: State, f: Array, search: _Search, residual: Array, v: Variations) -> tuple[State, Array]:
+def derivative(state: State, search: Search, v: Variations) -> Array:
+    """Return the derivative of the residual with respect to what is sought: coordinates, speeds, inputs."""
     drive = v.span.T @ state.model.equations.input_matrix(state.q, state.parameters).full()
     k, s = search.coordinates, search.speeds
-    moved = np.linalg.solve(v.M, np.hstack([-v.K[:, k], -v.C[:, s], drive[:, search.inputs]]))
+    changes = np.linalg.solve(v.M, np.hstack([-v.K[:, k], -v.C[:, s], drive[:, search.inputs]]))
     rates = np.hstack([v.speed_changes[:, k], v.span[:, s], np.zeros((len(state.q), len(search.inputs)))])
-    step = np.linalg.lstsq(np.vstack([moved, rates[search.resting]]), -residual, rcond=1e-11)[0]
-    step *= min(1.0, 0.3 / max(float(np.max(abs(step[: len(k)]), initial=0.0)), 1e-300))
+    return np.vstack([changes, rates[search.resting]])
+
+
+def _step(state: State, f: Array, search: Search, left_over: Array, v: Variations) -> tuple[State, Array]:
+    step = np.linalg.lstsq(derivative(state, search, v), -left_over, rcond=1e-11)[0]
+    k = len(search.coordinates)
+    step *= min(1.0, 0.3 / max(float(np.max(abs(step[:k]), initial=0.0)), 1e-300))
+    return moved(state, f, search, step, v)
+
+
+def moved(state: State, f: Array, search: Search, step: Array, v: Variations) -> tuple[State, Array]:
+    """Return the state and inputs after a step in what is sought, with loops closed."""
+    k, s = search.coordinates, search.speeds
     parts = state.partition
     q = state.q.copy()
     q += v.coordinate_directions[:, k] @ step[: len(k)]

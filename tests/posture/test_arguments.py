@@ -6,8 +6,9 @@ from pathlib import Path
 
 import pytest
 
-from singletrack import Bicycle, InputError, coefficients, load_bicycle, load_rider
-from singletrack.public import require_bicycle
+from singletrack import Bicycle, InputError, coefficients, load_bicycle, load_rider, multibody
+from singletrack.multibody.bicycle.model import ride
+from singletrack.posture import require_bicycle
 
 STRATOS, RIDER = load_bicycle("stratos"), load_rider("rider-a")
 
@@ -39,3 +40,23 @@ def test_wrong_arguments_say_what_to_type(arguments, says):
 
 def test_a_bicycle_is_what_it_is():
     assert require_bicycle(STRATOS) is None
+
+
+@pytest.mark.parametrize(
+    ("options", "says"),
+    [
+        ({"springs": [3.0]}, "springs = .*, must be a dictionary by joint"),
+        ({"dampers": 3.0}, "dampers = 3.0, must be a dictionary by joint"),
+        ({"torso_lean": "yes"}, "torso_lean = 'yes', must be True or False"),
+    ],
+)
+def test_options_of_the_wrong_type(options, says):
+    with pytest.raises(InputError, match=says):
+        coefficients(STRATOS, RIDER, "upright", **options)
+
+
+def test_the_engine_tells_the_same():
+    with pytest.raises(InputError, match=r"""type load_bicycle\("stratos"\)"""):
+        multibody.coefficients("stratos")
+    with pytest.raises(InputError, match=r"model is a Bicycle, must be a Model; type ride\(bicycle_model"):
+        ride(STRATOS, 5)

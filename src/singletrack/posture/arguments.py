@@ -7,7 +7,8 @@ from typing import Any
 
 from singletrack.errors import InputError
 from singletrack.parameters import Bicycle, Rider
-from singletrack.posture import POSTURES, Mechanism
+from singletrack.posture.mechanism import Mechanism
+from singletrack.posture.options import POSTURES
 
 __all__ = ["require_bicycle", "require_posture", "require_records"]
 

@@ -1,0 +1,102 @@
+"""``singletrack turn``."""
+
+from __future__ import annotations
+
+import io
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import numpy as np
+import typer
+
+from singletrack.commands.model import seated
+from singletrack.commands.model_options import ModelOptions
+from singletrack.commands.options import BicycleArgument, JsonOption
+from singletrack.commands.printing import deliver, print_json, show
+from singletrack.errors import InputError
+from singletrack.library import load_bicycle
+from singletrack.output import check_writable
+from singletrack.parameters.units import parse_quantity
+from singletrack.present.turning import turn_figure, turn_text
+from singletrack.public import warn_of_oddities
+from singletrack.public.turning import turn, turn_family
+
+if TYPE_CHECKING:
+    from singletrack.public.turning import Turn, TurnFamily
+
+__all__ = ["run"]
+
+_FIGURES = (".png", ".svg", ".pdf")
+
+
+def run(
+    bicycle: BicycleArgument,
+    options: ModelOptions,
+    speed: Annotated[str, typer.Option(help='Forward speed in m/s, or with a unit: "18 km/h".')],
+    lean: Annotated[str | None, typer.Option(help='Lean angle in rad, or "20 deg"; to the right.')] = None,
+    radius: Annotated[str | None, typer.Option(help="Radius of the rear wheel's track in m; to the right.")] = None,
+    plot: Annotated[
+        Path | None, typer.Option(help="Draw the eigenvalues of all turns at this speed here: .png, .svg or .pdf.")
+    ] = None,
+    json: JsonOption = False,
+) -> None:
+    """Print a steady turn: lean, steer, hand torque, path, forces, and whether it is stable."""
+    if plot is not None:
+        if plot.suffix.lower() not in _FIGURES:
+            raise InputError(f"{plot}: unknown suffix {plot.suffix!r}, must be one of {', '.join(_FIGURES)}")
+        check_writable(plot)
+    if (lean is None) == (radius is None):
+        raise InputError("turn: found neither or both of --lean and --radius, must be one of them")
+    record, rider, changed = seated(load_bicycle(bicycle), options)
+    warn_of_oddities(record, rider)
+    v = _number("--speed", speed, "m/s")
+    found = turn(
+        record,
+        rider,
+        options.sitting,
+        speed=v,
+        lean=None if lean is None else _number("--lean", lean, "rad"),
+        radius=None if radius is None else _number("--radius", radius, "m"),
+    )
+    who = "" if rider is None else f" with {rider.name or 'rider'}, {options.sitting.title}"
+    title = f"{record.name}{who}{changed}, {v:g} m/s"
+    if plot is not None:
+        family = turn_family(record, rider, options.sitting, speed=v, right=found.lean >= 0.0)
+        deliver(_drawn(family, title, plot), plot)
+    if json:
+        print_json(found.to_dict())
+    else:
+        show(f"steady turn of {title}\n{_text(found)}")
+
+
+def _number(option: str, text: str, unit: str) -> float:
+    try:
+        return float(parse_quantity(text, unit).value)
+    except InputError as error:
+        raise InputError(f"{option}: {error}") from None
+
+
+def _text(found: Turn) -> str:
+    quantities = [
+        ("lean", np.degrees(found.lean), "deg"),
+        ("steer", np.degrees(found.steer), "deg"),
+        ("hand torque", found.hand_torque, "N m"),
+        ("path speed", found.path_speed, "m/s"),
+        ("path radius", found.radius, "m"),
+        ("lateral acceleration", found.lateral_acceleration, "m/s²"),
+        ("yaw rate", found.yaw_rate, "rad/s"),
+    ]
+    forces = [(f"{name}, on it", force) for name, force in found.wheel_forces.items()]
+    forces += [(f"{name}, on the bar", force) for name, force in found.hand_forces.items()]
+    roots = list(zip(found.names, found.eigenvalues.tolist(), strict=True))
+    verdict = "stable" if found.stable else "unstable"
+    axes = "forces: forward, to the right, up on wheels, down on the bar"
+    return f"{turn_text(quantities, forces, roots)}\n{verdict}; {axes}"
+
+
+def _drawn(family: TurnFamily, title: str, plot: Path) -> bytes:
+    lean = np.degrees([each.lean for each in family.turns])
+    figure = turn_figure(lean, family.names, family.eigenvalues, title, family.end)
+    content = io.BytesIO()
+    figure.savefig(content, format=plot.suffix.lower().removeprefix("."))
+    return content.getvalue()
