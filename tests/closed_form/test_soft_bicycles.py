@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -10,6 +12,7 @@ from singletrack.closed_form import coefficients as closed_form
 from singletrack.files.toml_write import write_toml
 from singletrack.multibody import coefficients as multibody
 from singletrack.posture import Options
+from singletrack.posture.shipped import load_posture
 
 FORK = {"fork_bending_stiffness": 2e3, "fork_bending_damping": 3.0, "fork_hinge_x": 0.95, "fork_hinge_z": -0.65}
 FRAME = {"frame_torsion_stiffness": 5e3, "frame_hinge_x": 0.6, "frame_hinge_z": -0.5, "frame_hinge_tilt": 0.4}
@@ -40,11 +43,26 @@ def test_both_derivations_agree(name, soft):
         ("fork", Options("leaned", torso_lean=True, springs={"torso lean": 100.0, "steer": 2.0})),
         ("both", Options("rigid", torso_lean=True, dampers={"torso lean": 10.0})),
         ("frame", Options("rigid")),
+        ("both", Options("leaned")),
+        ("frame", Options("leaned", arms="bent")),
+        ("both", Options("upright")),
+        ("both", Options("leaned", torso_lean=True, springs={"torso lean": 100.0}, dampers={"steer": 0.5})),
     ],
     ids=lambda value: value if isinstance(value, str) else value.title,
 )
 def test_both_derivations_agree_with_riders(soft, options):
     bicycle, rider = load_bicycle("stratos").replace(**SOFT[soft]), load_rider("rider-a")
+    assert_equal(closed_form(bicycle, rider, options), multibody(bicycle, rider, options))
+
+
+@pytest.mark.parametrize("to", ["frame", "handlebar"])
+@pytest.mark.parametrize("name", ["stratos", "browser"])
+def test_directions_bound_to_a_twisting_handlebar(name, to):
+    """Moore's arms, whose upper arms are kept level against the frame, or here against the handlebar."""
+    mechanism = load_posture("moore-2012")
+    loops = tuple(replace(loop, to=to) if loop.perpendicular else loop for loop in mechanism.loops)
+    bicycle, rider = load_bicycle(name).replace(**FRAME), load_rider("rider-a")
+    options = Options(replace(mechanism, loops=loops))
     assert_equal(closed_form(bicycle, rider, options), multibody(bicycle, rider, options))
 
 

@@ -11,10 +11,9 @@ from singletrack.arrays import Array, as_arrays, is_concrete, refuse_single, req
 from singletrack.closed_form.flexible import flexible_matrices, hinge_laws
 from singletrack.closed_form.slaved import slaved_matrices
 from singletrack.closed_form.whipple import whipple_matrices
-from singletrack.errors import InputError
 from singletrack.model import COORDINATES, INPUTS, LinearModel
 from singletrack.model.definite import indefinite
-from singletrack.parameters.flexible import FRAME_TORSION, soft_hinges
+from singletrack.parameters.flexible import soft_hinges
 from singletrack.posture import STEER, Options, input_name, seat, slaved_bodies
 
 if TYPE_CHECKING:
@@ -100,14 +99,11 @@ def coefficients(bicycle: Bicycle, rider: Rider | None = None, options: Options 
 
 def _softened(model: LinearModel, bicycle: Bicycle, bodies: SlavedBodies | None) -> LinearModel:
     """Return a model with the freedoms of a soft frame and fork, where the bicycle has them."""
-    soft = tuple(hinge.name for hinge in soft_hinges(bicycle))
-    if not soft:
+    hinges = soft_hinges(bicycle)
+    if not hinges:
         return model
-    if FRAME_TORSION in soft and bodies is not None and bodies.holds_handlebar:
-        raise InputError(
-            f"{bicycle.name}: frame_torsion_stiffness: hands on a handlebar that twists against the saddle are computed"
-            " by the multibody engine only; take them off, or take fork_bending_stiffness"
-        )
+    # The twist of the frame is already there where it carries a handlebar that is held.
+    soft = tuple(hinge.name for hinge in hinges if hinge.name not in model.coordinates)
     matrices = flexible_matrices(bicycle, bodies, model.coordinates[2:])
     coordinates = (*model.coordinates, *soft)
     laws = hinge_laws(bicycle, coordinates)
