@@ -36,6 +36,14 @@ class _Described(Protocol):
 def line_of(record: _Described, names: Sequence[str]) -> str:
     """Return one line: what it is, its name, the batch's shape, and some of its parameters.
 
+    Parameters
+    ----------
+    record : Record
+    names : sequence of str
+        The parameters to show.
+
+    Examples
+    --------
     >>> from singletrack import load_bicycle
     >>> line_of(load_bicycle("stratos"), ["wheel_base", "trail"])
     '<Bicycle stratos: wheel_base 1.037 m, trail 0.0563 m>'
@@ -47,7 +55,12 @@ def line_of(record: _Described, names: Sequence[str]) -> str:
 
 
 def table_of(record: _Described) -> str:
-    """Return an HTML table of all parameters: name, symbol, value in SI (angles in degrees), deviation, meaning."""
+    """Return an HTML table of all parameters: name, symbol, value in SI (angles in degrees), deviation, meaning.
+
+    Parameters
+    ----------
+    record : Record
+    """
     shape = f", {' × '.join(map(str, record.shape))} designs" if record.shape else ""
     caption = f"{record.kind} {record.name}{shape}" + (f": {record.description}" if record.description else "")
     return table(_rows(record), ["parameter", "symbol", "value", "±", ""], caption)

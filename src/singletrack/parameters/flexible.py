@@ -73,7 +73,12 @@ def soft_hinges(bicycle: Bicycle) -> tuple[SoftHinge, ...]:
 
 
 def hinge_faults(bicycle: Bicycle) -> Iterator[Fault]:
-    """Yield a fault for each stiffness without a place for its hinge."""
+    """Yield a fault for each stiffness without a place for its hinge.
+
+    Parameters
+    ----------
+    bicycle : Bicycle
+    """
     for what, where in _PARTS.values():
         for axis in "xz":
             if getattr(bicycle, f"{what}_stiffness") is not None and getattr(bicycle, f"{where}_{axis}") is None:

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 __all__ = ["ARRAYS", "Column", "Layout", "encode", "metadata", "status_of"]
 
 _STATUS = ("not_computed", "computed", "faulty")
-_ANSWER = ("not_computed", "found", "never", "faulty")
+_ANSWER = ("not_computed", "found", "never", "faulty", "could_not_tell")
 
 #: For each array: dimensions after "design", unit and meaning.
 ARRAYS: dict[str, tuple[tuple[str, ...], str, str]] = {
@@ -42,10 +42,19 @@ ARRAYS: dict[str, tuple[tuple[str, ...], str, str]] = {
 CODES = {"status": _STATUS, "weave_status": _ANSWER, "capsize_status": _ANSWER, "stable_status": _ANSWER}
 
 
-def status_of(values: np.ndarray) -> np.ndarray:
-    """Return for speeds, values of shape (k, ...), of sound designs whether there are any: 1 found, 2 never, (k,)."""
+def status_of(values: np.ndarray, told: np.ndarray) -> np.ndarray:
+    """Return codes (k,) for speeds of sound designs: 1 found, 2 never, 4 could not tell.
+
+    Parameters
+    ----------
+    values : array, shape (k, ...)
+        In m/s, NaN where there are fewer.
+    told : bool array, shape (k,)
+        Whether anything could be told.
+    """
     found = np.isfinite(values).reshape(len(values), -1).any(axis=1)
-    return np.where(found, np.int8(_ANSWER.index("found")), np.int8(_ANSWER.index("never")))
+    codes = np.where(found, _ANSWER.index("found"), _ANSWER.index("never"))
+    return np.where(told, codes, _ANSWER.index("could_not_tell")).astype(np.int8)
 
 
 @dataclass(frozen=True)
