@@ -16,12 +16,13 @@ from typing import TYPE_CHECKING, NamedTuple
 from singletrack.arrays import Array, as_arrays, cross, matvec, stack, vector
 from singletrack.closed_form.whipple import Matrices
 from singletrack.parameters.flexible import FORK_BENDING, FRAME_TORSION, soft_hinges
+from singletrack.posture import seat, slaved_bodies
 
 if TYPE_CHECKING:
-    from singletrack.parameters import Bicycle
-    from singletrack.posture import SlavedBodies
+    from singletrack.parameters import Bicycle, Rider
+    from singletrack.posture import Options, SlavedBodies
 
-__all__ = ["flexible_matrices", "hinge_laws"]
+__all__ = ["Moving", "flexible_matrices", "hinge_laws", "moving_bodies"]
 
 #: Bodies of the bicycle, and the freedoms that move them.
 _BODIES = ("rear_wheel", "rear_frame", "front_frame", "front_wheel")
@@ -126,6 +127,57 @@ def flexible_matrices(bicycle: Bicycle, bodies: SlavedBodies | None, freedoms: t
     inner = [[-sinking[..., i, j] + moment_x * pitch[i][j] / base for j in range(count)] for i in range(count)]
     K0 = stack([stack([moment_z, *edge], -1), *(stack([edge[i], *inner[i]], -1) for i in range(count))], -2)
     return Matrices(M, C1, K0, K2)
+
+
+class Moving(NamedTuple):
+    """A bicycle that rolling does not take along, n bodies, f freedoms.
+
+    Products of motions (..., f + 2, f + 2) in lean, freedoms, yaw; lateral momenta (..., f + 1) of lean and freedoms;
+    total mass and its moment about the rear contact; the wheels' spins; sideways motion eta, heading and camber of the
+    front wheel by freedom; the wheel base.
+    """
+
+    pairs: Array
+    lateral: Array
+    mass: Array
+    moment_x: Array
+    spins: list[tuple[Array, Array]]
+    eta: list[Array]
+    heading: list[Array]
+    camber: list[Array]
+    base: Array
+
+
+def moving_bodies(bicycle: Bicycle, rider: Rider | None, options: Options | str, names: tuple[str, ...]) -> Moving:
+    """Return how a bicycle's and rider's bodies move, for wheels that do not roll without slip.
+
+    Parameters
+    ----------
+    bicycle, rider, options
+        As for a model.
+    names
+        The freedoms beside lean, steer first.
+    """
+    hinges = _hinges(bicycle)
+    _, (base,) = as_arrays(bicycle.wheel_base)
+    zero = 0.0 * base
+    still = [zero] * len(names)
+    groups = [_bicycle_bodies(bicycle, hinges, names)]
+    if rider is not None:
+        groups.append(_rider_bodies(slaved_bodies(seat(bicycle, rider, options), bicycle), names))
+    whole = [_of_bodies(group, still) for group in groups]
+    pairs, lateral, moments, _ = (_sum([part[k] for part in whole]) for k in range(4))
+    return Moving(
+        pairs,
+        lateral,
+        _sum([as_arrays(group.mass)[0].sum(group.mass, axis=-1) for group in groups]),
+        moments[..., 0],
+        _spins(bicycle, hinges, names, still),
+        [hinges[name].lateral(base, zero) if name in hinges else zero for name in names],
+        [hinges[name].az if name in hinges else zero for name in names],
+        [hinges[name].ax if name in hinges else zero for name in names],
+        base,
+    )
 
 
 def hinge_laws(bicycle: Bicycle, places: tuple[str, ...]) -> tuple[Array, Array]:
