@@ -12,7 +12,7 @@ from singletrack.closed_form.slaved import slaved_matrices
 from singletrack.closed_form.whipple import whipple_matrices
 from singletrack.model import COORDINATES, INPUTS, LinearModel
 from singletrack.model.definite import indefinite
-from singletrack.posture import STEER, Options, input_name, seat, slaved_bodies
+from singletrack.posture import STEER, Options, input_name, seat, slaved_mass
 
 if TYPE_CHECKING:
     from singletrack.parameters import Bicycle, Rider
@@ -69,7 +69,7 @@ def coefficients(bicycle: Bicycle, rider: Rider | None = None, options: Options 
         laws = _steer_laws(options, 1)
         model = LinearModel(*bare, bicycle.gravity, faults=bicycle.standing_faults, C0=laws[0], S0=laws[1])
         return _checked(model, bicycle.name)
-    bodies = slaved_bodies(seat(bicycle, rider, options), bicycle)
+    bodies = slaved_mass(seat(bicycle, rider, options), bicycle)
     added = slaved_matrices(bodies, bicycle)
     faults = bicycle.standing_faults + rider.standing_faults + bodies.faults
     more = len(bodies.freedoms)
