@@ -36,7 +36,7 @@ def test_left_and_right_mirror_each_other(name, posture):
 def test_what_lies_in_the_middle_moves_sideways_first(name, posture):
     bicycle = load_bicycle(name)
     seated = seat(bicycle, RIDER, posture)
-    rotation, displacement, curvature = segment_motion(seated, bicycle)
+    _, displacement, curvature = segment_motion(seated, bicycle)
     for i, segment in enumerate(seated.segments):
         if segment in ("head", "torso"):
             np.testing.assert_allclose(displacement[0, i][[0, 2]], 0.0, atol=1e-14)
