@@ -48,6 +48,7 @@ DOORS = {
 TOO_LONG = {
     "closed_form/flexible.py",
     "multibody/bicycle/model.py",
+    "multibody/engine/connections.py",
     "multibody/engine/elements.py",
     "multibody/engine/linearise.py",
     "reproduce/statements/founding.py",
