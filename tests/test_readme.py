@@ -11,7 +11,8 @@ import pytest
 
 from singletrack.commands import app as cli
 from singletrack.reproduce.cases import paper_cases
-from singletrack.reproduce.claims import check_claims
+from singletrack.reproduce.measured import measured_case
+from singletrack.reproduce.statements import check_statements
 
 README = Path(__file__).parents[1] / "README.md"
 COMMANDS = [
@@ -41,9 +42,14 @@ def test_python():
 
 
 def test_verdicts():
-    claims = check_claims(paper_cases())
-    holds, partly = (sum(claim.verdict == verdict for claim in claims) for verdict in ("holds", "holds in part"))
-    assert f"({holds} of {len(claims)} hold, {partly} in part;" in README.read_text()
+    statements = check_statements(paper_cases(), measured_case())
+    for paper, words in {
+        "founding": "({} of {} hold, {} in part;",
+        "journal": "{} of {}, {} in part, in its journal",
+    }.items():
+        own = [one for one in statements if one.paper == paper]
+        holds, partly = (sum(one.verdict == verdict for one in own) for verdict in ("holds", "holds in part"))
+        assert words.format(holds, len(own), partly) in " ".join(README.read_text().split())
 
 
 def test_links():

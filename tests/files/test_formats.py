@@ -16,6 +16,7 @@ from singletrack.files.rigid_rider import read_rigid_rider
 from singletrack.files.text import read_bicycle_text, write_bicycle_text
 from singletrack.files.text_lines import read_values
 from singletrack.files.uncertain import format_number, parse_number
+from singletrack.files.yeadon import read_configuration
 from singletrack.mechanics import Body, combine
 from singletrack.mechanics.rigid import PlanarBody
 from singletrack.parameters.bodies import with_rigid_rider
@@ -269,3 +270,27 @@ def test_refusals_of_rigid_riders(old, new, says):
     with pytest.raises(InputError, match=r"^rider\.txt") as refusal:
         read_rigid_rider(RIGID.replace(old, new, 1), "rider.txt")
     assert says in str(refusal.value)
+
+
+@pytest.mark.parametrize("parameterization", ["benchmark", "principal"])
+def test_a_steer_axis_that_leans_forward_survives_a_parameter_set(parameterization):
+    bicycle = load_bicycle("stratos").replace(steer_axis_tilt=-0.1, trail=0.03)
+    text = write_parameter_set(bicycle, parameterization)
+    back = read_parameter_set(text, "forward.yml")
+    assert back.steer_axis_tilt == -0.1
+    for one, other in zip(*(coefficients(b).matrices for b in (bicycle, back)), strict=True):
+        np.testing.assert_allclose(one, other, rtol=1e-13, atol=1e-15)
+
+
+@pytest.mark.parametrize("parameterization", ["benchmark", "principal"])
+def test_a_skate_survives_a_parameter_set(shared_data, parameterization):
+    skate = load_bicycle(shared_data / "bicycles" / "TmsBenchmark.txt")
+    back = read_parameter_set(write_parameter_set(skate, parameterization), "tms.yml")
+    assert back.values() == skate.values()
+
+
+@pytest.mark.parametrize("name", ["JasonBrowserYeadonCFG.txt", "JasonStratosYeadonCFG.txt"])
+def test_configurations_of_others_are_read(shared_data, name):
+    text = (shared_data / "riders" / name).read_text()
+    somersault = float(re.search(r"somersault:\s*(\S+)", text)[1])
+    assert read_configuration(text, name) == pytest.approx(pi / 2 - somersault, abs=1e-15)

@@ -9,7 +9,7 @@ import pytest
 from mechanisms import random_mechanism
 from physics.exact_geometry import ExactBicycle, ExactRider, vec
 from singletrack import closed_form, coefficients, load_bicycle, load_rider
-from singletrack.posture import Options, seat, segment_motion
+from singletrack.posture import Options, seat, slaved_bodies
 
 STEP = mp.mpf(10) ** -8  # error of the differences: its square times a number of order one
 SEATED = [("stratos", p) for p in ("rigid", "leaned", "upright")] + [("browser", p) for p in ("leaned", "upright")]
@@ -73,15 +73,15 @@ def test_motion_of_the_segments_to_second_order(name, posture, shoulder):
     """J, H and w against differences of exactly closed loops."""
     bicycle = load_bicycle(name)
     seated = seat(bicycle, load_rider("rider-a"), Options(posture, shoulder))
-    (rotation, displacement, curvature), exact = segment_motion(seated, bicycle), ExactRider(bicycle, seated)
+    bodies, exact = slaved_bodies(seated, bicycle), ExactRider(bicycle, seated)
     ahead, behind = exact.placed(STEP), exact.placed(-STEP)
     for i, (segment, body) in enumerate(seated.segments.items()):
         at = vec(body.centre)
         plus, minus = ahead[segment](at), behind[segment](at)
-        np.testing.assert_allclose(displacement[0, i], floats((plus - minus) / (2 * STEP)), atol=1e-12)
-        np.testing.assert_allclose(curvature[0, i], floats((plus - 2 * at + minus) / STEP**2), atol=1e-9)
+        np.testing.assert_allclose(bodies.displacement[0, i], floats((plus - minus) / (2 * STEP)), atol=1e-12)
+        np.testing.assert_allclose(bodies.curvature[0, i], floats((plus - 2 * at + minus) / STEP**2), atol=1e-9)
         turn = (ahead[segment].turn - behind[segment].turn) / (2 * STEP)
-        np.testing.assert_allclose(rotation[0, i], floats([turn[2, 1], turn[0, 2], turn[1, 0]]), atol=1e-12)
+        np.testing.assert_allclose(bodies.rotation[0, i], floats([turn[2, 1], turn[0, 2], turn[1, 0]]), atol=1e-12)
 
 
 LEANING = [

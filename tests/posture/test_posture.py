@@ -7,7 +7,7 @@ import pytest
 
 from singletrack import InputError, PostureError, coefficients, load_bicycle, load_rider
 from singletrack.body import skeleton
-from singletrack.posture import Options, seat, segment_motion, steered_skeleton
+from singletrack.posture import Options, seat, slaved_bodies, steered_skeleton
 from singletrack.posture.motion import joint_motion
 
 RIDER = load_rider("rider-a")
@@ -19,28 +19,28 @@ def test_left_and_right_mirror_each_other(name, posture):
     """Steering left is the mirror image of steering right: J and H of one arm are those of the other."""
     bicycle = load_bicycle(name)
     seated = seat(bicycle, RIDER, posture)
-    rotation, displacement, curvature = segment_motion(seated, bicycle)
+    bodies = slaved_bodies(seated, bicycle)
     index = {segment: i for i, segment in enumerate(seated.segments)}
     mirror = np.array([1.0, -1.0, 1.0])
     for segment, right in index.items():
         left = index[segment.replace("right", "left")] if "right" in segment else None
         if left is None:
             continue
-        np.testing.assert_allclose(displacement[0, left], -mirror * displacement[0, right], atol=1e-12)
-        np.testing.assert_allclose(curvature[0, left], mirror * curvature[0, right], atol=1e-10)
+        np.testing.assert_allclose(bodies.displacement[0, left], -mirror * bodies.displacement[0, right], atol=1e-12)
+        np.testing.assert_allclose(bodies.curvature[0, left], mirror * bodies.curvature[0, right], atol=1e-10)
         # Rotations are axial vectors: the mirror turns their sign around.
-        np.testing.assert_allclose(rotation[0, left], mirror * rotation[0, right], atol=1e-12)
+        np.testing.assert_allclose(bodies.rotation[0, left], mirror * bodies.rotation[0, right], atol=1e-12)
 
 
 @pytest.mark.parametrize(("name", "posture"), PASSIVE)
 def test_what_lies_in_the_middle_moves_sideways_first(name, posture):
     bicycle = load_bicycle(name)
     seated = seat(bicycle, RIDER, posture)
-    _, displacement, curvature = segment_motion(seated, bicycle)
+    bodies = slaved_bodies(seated, bicycle)
     for i, segment in enumerate(seated.segments):
         if segment in ("head", "torso"):
-            np.testing.assert_allclose(displacement[0, i][[0, 2]], 0.0, atol=1e-14)
-            np.testing.assert_allclose(curvature[0, i][1], 0.0, atol=1e-14)
+            np.testing.assert_allclose(bodies.displacement[0, i][[0, 2]], 0.0, atol=1e-14)
+            np.testing.assert_allclose(bodies.curvature[0, i][1], 0.0, atol=1e-14)
 
 
 @pytest.mark.parametrize(("name", "posture"), PASSIVE)
@@ -59,7 +59,8 @@ def test_error_of_second_order_is_of_third_order(name, posture):
 
 def test_rigid_rider_does_not_move():
     bicycle = load_bicycle("stratos")
-    for motion in segment_motion(seat(bicycle, RIDER), bicycle):
+    bodies = slaved_bodies(seat(bicycle, RIDER), bicycle)
+    for motion in (bodies.rotation, bodies.displacement, bodies.curvature):
         assert not motion.any()
 
 

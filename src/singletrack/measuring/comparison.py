@@ -11,14 +11,14 @@ from singletrack.parameters.symbols import MODEL_SYMBOLS, NAMES
 if TYPE_CHECKING:
     from singletrack.parameters.bicycle import Bicycle
 
-__all__ = ["Agreement", "compare_measured"]
+__all__ = ["ComparedParameter", "compare_measured"]
 
 #: Differences up to this many standard deviations are what measuring twice gives (95 %).
 _SIGMAS = 2.0
 
 
 @dataclass(frozen=True)
-class Agreement:
+class ComparedParameter:
     """One parameter in two sources.
 
     Attributes
@@ -43,7 +43,7 @@ class Agreement:
     reason: str
 
 
-def compare_measured(measured: Bicycle, other: Bicycle) -> list[Agreement]:
+def compare_measured(measured: Bicycle, other: Bicycle) -> list[ComparedParameter]:
     """Compare the 25 parameters (and gravity) of a measured bicycle with another source's.
 
     The other source's numbers count as rounded to their last decimal digit. Where both moments of the wheels about a
@@ -70,14 +70,14 @@ def compare_measured(measured: Bicycle, other: Bicycle) -> list[Agreement]:
     ]
 
 
-def _agreement(name: str, measured: Bicycle, other: Bicycle, other_name: str = "") -> Agreement:
+def _agreement(name: str, measured: Bicycle, other: Bicycle, other_name: str = "") -> ComparedParameter:
     value, reference = float(getattr(measured, name)), float(getattr(other, other_name or name))
     deviation = float(measured.standard_deviations.get(name, 0.0))
     difference = reference - value
     ratio = 0.0 if difference == 0 else (difference / deviation if deviation else float("inf"))
     half_digit = _half_last_digit(reference)
     agrees = abs(difference) <= _SIGMAS * deviation + half_digit
-    return Agreement(name, value, deviation, reference, ratio, agrees, "")
+    return ComparedParameter(name, value, deviation, reference, ratio, agrees, "")
 
 
 def _half_last_digit(value: float) -> float:
@@ -91,5 +91,5 @@ def _half_last_digit(value: float) -> float:
     return 0.5 * 10.0**-digits
 
 
-def _with_reason(row: Agreement, reason: str) -> Agreement:
-    return Agreement(row.name, row.measured, row.deviation, row.other, row.ratio, row.agrees, reason)
+def _with_reason(row: ComparedParameter, reason: str) -> ComparedParameter:
+    return ComparedParameter(row.name, row.measured, row.deviation, row.other, row.ratio, row.agrees, reason)

@@ -1,17 +1,20 @@
 """A multibody engine: from bodies, joints, closed loops and rolling wheels to motion, and to its linearisation."""
 
 from singletrack.multibody.bicycle.coefficients import coefficients
+from singletrack.multibody.bicycle.hands_free import free_turns, hands_free_family
 from singletrack.multibody.bicycle.model import bicycle_model, ride
-from singletrack.multibody.bicycle.turning import circle, free_turns, hands_free_family, held_turn, held_turns
+from singletrack.multibody.bicycle.turning import circle, held_turn, held_turns
 from singletrack.multibody.engine.assembly import assemble, move
 from singletrack.multibody.engine.connections import (
     Closure,
     CoordinateForce,
     Force,
+    Ratio,
     Sensor,
     Spring,
     Torque,
     Wheel,
+    close_direction,
     close_distance,
     close_joint,
     close_point,
@@ -21,6 +24,7 @@ from singletrack.multibody.engine.elements import (
     GROUND,
     Body,
     Joint,
+    Motion,
     cylindrical,
     fixed,
     free,
@@ -37,12 +41,21 @@ from singletrack.multibody.engine.inputs import Constant, Function, Pulse, Sampl
 from singletrack.multibody.engine.limits import Limit, Reach
 from singletrack.multibody.engine.linearise import Linearisation, linearise, speed_polynomials
 from singletrack.multibody.engine.model import Model, State, build
+from singletrack.multibody.engine.reactions import (
+    Buckling,
+    Reaction,
+    buckling_load,
+    driving_forces,
+    inverse_dynamics,
+    joint_reactions,
+)
 from singletrack.multibody.engine.simulate import Event, simulate
 from singletrack.multibody.engine.system import System
 
 __all__ = [
     "GROUND",
     "Body",
+    "Buckling",
     "Closure",
     "Constant",
     "CoordinateForce",
@@ -53,8 +66,11 @@ __all__ = [
     "Limit",
     "Linearisation",
     "Model",
+    "Motion",
     "Pulse",
+    "Ratio",
     "Reach",
+    "Reaction",
     "Response",
     "Sampled",
     "Sensor",
@@ -67,19 +83,24 @@ __all__ = [
     "accelerations",
     "assemble",
     "bicycle_model",
+    "buckling_load",
     "build",
     "circle",
+    "close_direction",
     "close_distance",
     "close_joint",
     "close_point",
     "coefficients",
     "cylindrical",
+    "driving_forces",
     "fixed",
     "free",
     "free_turns",
     "hands_free_family",
     "held_turn",
     "held_turns",
+    "inverse_dynamics",
+    "joint_reactions",
     "linearise",
     "loop_forces",
     "move",

@@ -1,7 +1,7 @@
 """Which segments of the rider move with the steer, and how."""
 
 from singletrack.posture.arguments import require_bicycle, require_posture, require_records
-from singletrack.posture.bodies import SlavedMass, segment_motion, slaved_mass
+from singletrack.posture.bodies import SlavedBodies, SlavedMass, slaved_bodies, slaved_mass
 from singletrack.posture.mechanism import HANDLEBAR, Mechanism
 from singletrack.posture.options import ARMS, POSTURES, SHOULDERS, STEER, Options, input_name
 from singletrack.posture.residual import loop_residual
@@ -21,6 +21,7 @@ __all__ = [
     "Mechanism",
     "Options",
     "Posture",
+    "SlavedBodies",
     "SlavedMass",
     "input_name",
     "load_posture",
@@ -32,7 +33,7 @@ __all__ = [
     "require_posture",
     "require_records",
     "seat",
-    "segment_motion",
+    "slaved_bodies",
     "slaved_mass",
     "steer_axis",
     "steered_skeleton",

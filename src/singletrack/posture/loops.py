@@ -81,13 +81,22 @@ class Loops:
 
     def bending_points(self, motion: Motion) -> Array:
         """Return the second derivatives (3, L, p, N) by which points part."""
-        parting = turned(motion.turning[:, self.tree.points.chain], self.columns)
-        return parting - self._steer_only(cross3(self.axis[:, None], self.turned_bar()))
+        ends, moved = self.tree.points, self.turned_bar()
+        parting = turned(motion.turning[:, ends.chain], self.columns)
+        parting = parting - self._steer_only(cross3(self.axis[:, None], moved))
+        if (ends.far * ends.bar[:, None]).any():  # the steer is carried by a joint
+            parting = parting - self._with_steer(cross3(motion.spins(ends.far), moved[:, :, None]))
+        return parting
 
     def _steer_only(self, values: Array) -> Array:
         """Return values (3, k, N) as those of the pair (steer, steer), zero for the others."""
         count = len(self.tree.first)
         return stack([values, *[0.0 * values] * (count - 1)], -2) if count > 1 else values[:, :, None]
+
+    def _with_steer(self, values: Array) -> Array:
+        """Return values (3, k, f, N) as those of the pairs (steer, freedom), zero for the others."""
+        pairs = zip(self.tree.first, self.tree.second, strict=True)
+        return stack([values[:, :, j] if i == 0 < j else 0.0 * values[:, :, 0] for i, j in pairs], -2)
 
     def _bending_angles(self, motion: Motion) -> Array:
         """Return the second derivatives (Q, p, N) of the products of directions."""
@@ -101,6 +110,8 @@ class Loops:
                 bar = cross3(self.axis[:, None], direction) * ends.bar[:, None]
                 first = stack([first[:, :, 0] + bar, *(first[:, :, k] for k in range(1, first.shape[2]))], -2)
                 second = second + self._steer_only(cross3(self.axis[:, None], bar))
+                if (ends.far * ends.bar[:, None]).any():
+                    second = second + self._with_steer(cross3(motion.spins(ends.far), bar[:, :, None]))
             firsts.append(first)
             seconds.append(second)
         i, j = tree.first, tree.second

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from singletrack.errors import PostureError
+from singletrack.parameters.flexible import FRAME_TORSION
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -122,7 +123,9 @@ def make_tree(
     def ends(*, points: bool) -> LoopEnds:
         index = tuple(k for k, loop in enumerate(loops) if loop[3] == points)
         bar = np.array([float(loops[k][2] == "handlebar") for k in index])
-        near, far = rows([loops[k][1] for k in index]), rows([loops[k][2] for k in index])
+        # What carries the handlebar, where the frame is soft: a joint of this name.
+        far_ends = [FRAME_TORSION if loops[k][2] == "handlebar" else loops[k][2] for k in index]
+        near, far = rows([loops[k][1] for k in index]), rows(far_ends)
         return LoopEnds(index, near, far, bar, *_chains(near - far, [joint[3] for joint in joints]))
 
     points, angles = ends(points=True), ends(points=False)

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
 
     from singletrack.analysis.summary import Quantity, Results
-    from singletrack.measuring.comparison import Agreement
+    from singletrack.measuring.comparison import ComparedParameter
     from singletrack.parameters import Bicycle, Rider
     from singletrack.present.terminal import Terminal
 
@@ -70,7 +70,10 @@ def print_results(console: Terminal, found: Results, title: str) -> None:
 
 
 def print_measured(
-    console: Terminal, measured: Bicycle, other_name: str = "", agreements: Mapping[str, Agreement] | None = None
+    console: Terminal,
+    measured: Bicycle,
+    other_name: str = "",
+    agreements: Mapping[str, ComparedParameter] | None = None,
 ) -> None:
     """Print measured parameters, beside those of another source if given.
 
@@ -81,7 +84,7 @@ def print_measured(
         With standard deviations.
     other_name : str
         Of the other source.
-    agreements : mapping of str to Agreement, optional
+    agreements : mapping of str to ComparedParameter, optional
         By parameter.
     """
     table = Table(box=None, pad_edge=False)

@@ -11,11 +11,11 @@ import numpy as np
 if TYPE_CHECKING:
     from singletrack.model import LinearModel
 
-__all__ = ["Claim", "first_speed", "gk0_22", "m_22", "printed_number_holds"]
+__all__ = ["Statement", "first_speed", "gk0_22", "m_22", "number_statement", "printed_number_holds"]
 
 
 @dataclass(frozen=True)
-class Claim:
+class Statement:
     """A printed number or a sentence, and what was found.
 
     Attributes
@@ -30,7 +30,11 @@ class Claim:
     note : str
         Why not, or what else is worth knowing.
     partly : bool
-        Whether a claim that does not hold as a whole holds over part of the speeds.
+        Whether a statement that does not hold as a whole holds over part of the speeds, or with what the note says.
+    paper : str
+        Which paper says so, a key of :data:`singletrack.reproduce.statements.PAPERS`.
+    corrected : bool
+        Whether the authors have printed another number since.
     """
 
     section: str
@@ -39,10 +43,14 @@ class Claim:
     holds: bool
     note: str = ""
     partly: bool = False
+    paper: str = "founding"
+    corrected: bool = False
 
     @property
     def verdict(self) -> str:
         """The verdict in words."""
+        if self.corrected:
+            return "corrected in 2012"
         return "holds" if self.holds else ("holds in part" if self.partly else "does not hold")
 
 
@@ -54,6 +62,18 @@ def printed_number_holds(printed: str, value: float) -> bool:
     """
     digits = -int(Decimal(printed).as_tuple().exponent)
     return abs(value - float(printed)) <= 0.5 * 10.0**-digits * (1 + 1e-9)
+
+
+def number_statement(
+    section: str, what: str, printed: str, value: float, unit: str, note: str = "", *, paper: str = "founding"
+) -> Statement:
+    """Return the statement that something has a printed value, with the computed value in the same unit.
+
+    The note is kept where the number does not hold.
+    """
+    holds = printed_number_holds(printed, value)
+    text = f"{what} = {printed} {unit}"
+    return Statement(section, text, f"{value:.4f} {unit}", holds, "" if holds else note, paper=paper)
 
 
 def m_22(model: LinearModel) -> float:
