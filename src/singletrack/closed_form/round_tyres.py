@@ -23,12 +23,12 @@ from singletrack.parameters.flexible import soft_hinges
 if TYPE_CHECKING:
     from singletrack.model import LinearModel
     from singletrack.parameters import Bicycle
-    from singletrack.posture import SlavedBodies
+    from singletrack.posture import SlavedMass
 
 __all__ = ["on_round_tyres"]
 
 
-def on_round_tyres(model: LinearModel, bicycle: Bicycle, bodies: SlavedBodies | None) -> LinearModel:
+def on_round_tyres(model: LinearModel, bicycle: Bicycle, bodies: SlavedMass | None) -> LinearModel:
     """Return the model of a bicycle on its round tyres, where it has a tyre radius.
 
     Parameters
@@ -36,7 +36,7 @@ def on_round_tyres(model: LinearModel, bicycle: Bicycle, bodies: SlavedBodies | 
     model : LinearModel
         On knife edges.
     bicycle : Bicycle
-    bodies : SlavedBodies, optional
+    bodies : SlavedMass, optional
         The rider's, which load the wheels too.
 
     Examples
@@ -64,13 +64,13 @@ def on_round_tyres(model: LinearModel, bicycle: Bicycle, bodies: SlavedBodies | 
     return dataclasses.replace(model, K0=K0)
 
 
-def _loads(bicycle: Bicycle, bodies: SlavedBodies | None) -> tuple[Array, Array]:
+def _loads(bicycle: Bicycle, bodies: SlavedMass | None) -> tuple[Array, Array]:
     """Return the masses that rest on the front and on the rear wheel, kg, (...)."""
     own = bicycle_bodies(bicycle).values()
     mass = sum(body.mass for body in own)
     moment = sum(body.mass * body.x for body in own)
     if bodies is not None:
-        mass = mass + bodies.mass.sum(axis=-1)
-        moment = moment + (bodies.mass * bodies.centre[..., 0]).sum(axis=-1)
+        mass = mass + bodies.mass
+        moment = moment + bodies.moment_x
     front = moment / bicycle.wheel_base
     return front, mass - front
