@@ -96,7 +96,7 @@ def coefficients(bicycle: Bicycle, rider: Rider | None = None, options: Options 
         coordinates=(*COORDINATES, *bodies.freedoms),
         inputs=(*INPUTS, *map(input_name, bodies.freedoms)),
     )
-    return _checked(on_round_tyres(_softened(model, bicycle, posture), bicycle, bodies), bicycle.name)
+    return _checked(on_round_tyres(_softened(model, bicycle, posture), bicycle, posture), bicycle.name)
 
 
 def _softened(model: LinearModel, bicycle: Bicycle, posture: Posture | None) -> LinearModel:

@@ -23,12 +23,12 @@ from singletrack.parameters.flexible import soft_hinges
 if TYPE_CHECKING:
     from singletrack.model import LinearModel
     from singletrack.parameters import Bicycle
-    from singletrack.posture import SlavedMass
+    from singletrack.posture import Posture
 
 __all__ = ["on_round_tyres"]
 
 
-def on_round_tyres(model: LinearModel, bicycle: Bicycle, bodies: SlavedMass | None) -> LinearModel:
+def on_round_tyres(model: LinearModel, bicycle: Bicycle, posture: Posture | None) -> LinearModel:
     """Return the model of a bicycle on its round tyres, where it has a tyre radius.
 
     Parameters
@@ -36,8 +36,8 @@ def on_round_tyres(model: LinearModel, bicycle: Bicycle, bodies: SlavedMass | No
     model : LinearModel
         On knife edges.
     bicycle : Bicycle
-    bodies : SlavedMass, optional
-        The rider's, which load the wheels too.
+    posture : Posture, optional
+        The seated rider, who loads the wheels too.
 
     Examples
     --------
@@ -50,7 +50,7 @@ def on_round_tyres(model: LinearModel, bicycle: Bicycle, bodies: SlavedMass | No
     if bicycle.rear_tyre_radius is None and bicycle.front_tyre_radius is None:
         return model
     xp, (tilt, base) = as_arrays(bicycle.steer_axis_tilt, bicycle.wheel_base)
-    front, rear = _loads(bicycle, bodies)
+    front, rear = _loads(bicycle, posture)
     zero = 0.0 * tilt * base
     leans = {"lean": zero + 1.0, "steer": zero + xp.sin(tilt)}
     leans |= {hinge.name: zero + hinge.axis[..., 0] for hinge in soft_hinges(bicycle)}
@@ -64,13 +64,14 @@ def on_round_tyres(model: LinearModel, bicycle: Bicycle, bodies: SlavedMass | No
     return dataclasses.replace(model, K0=K0)
 
 
-def _loads(bicycle: Bicycle, bodies: SlavedMass | None) -> tuple[Array, Array]:
+def _loads(bicycle: Bicycle, posture: Posture | None) -> tuple[Array, Array]:
     """Return the masses that rest on the front and on the rear wheel, kg, (...)."""
     own = bicycle_bodies(bicycle).values()
     mass = sum(body.mass for body in own)
     moment = sum(body.mass * body.x for body in own)
-    if bodies is not None:
-        mass = mass + bodies.mass
-        moment = moment + bodies.moment_x
+    if posture is not None:
+        segments = posture.segments.values()
+        mass = mass + sum(segment.mass for segment in segments)
+        moment = moment + sum(segment.mass * segment.centre[..., 0] for segment in segments)
     front = moment / bicycle.wheel_base
     return front, mass - front
