@@ -141,13 +141,7 @@ def test_a_further_freedom_has_its_own_curves_and_columns():
     colours = {line.get_color() for line in figure.axes[0].lines}
     assert len(colours) >= 5
     header, first = eigenvalues_csv(modes).splitlines()[:2]
-    assert header.split(",")[-4:] == [
-        "torso_lean_1_real",
-        "torso_lean_1_imag",
-        "torso_lean_2_real",
-        "torso_lean_2_imag",
-    ]
+    assert header.endswith("torso_lean_1_real,torso_lean_1_imag,torso_lean_2_real,torso_lean_2_imag")
     assert len(first.split(",")) == 13
-    assert [column.header.text for column in eigenvalues_table(modes, "title").renderables[0].columns][
-        -2
-    ] == "torso lean"
+    columns = eigenvalues_table(modes, "title").renderables[0].columns
+    assert columns[-2].header.text == "torso lean"
