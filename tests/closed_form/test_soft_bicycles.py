@@ -118,3 +118,18 @@ def test_a_file_says_it_in_one_line_and_comes_back(tmp_path):
     path.write_text(write_toml(soft))
     assert "fork_bending_stiffness =" in path.read_text()
     assert load_bicycle(str(path)).values() == pytest.approx(soft.values())
+
+
+def test_hinges_anywhere_agree():
+    """Random hinges on random bicycles, both derivations."""
+    rng = np.random.default_rng(1015)
+    for name in ("benchmark", "stratos", "browser") * 2:
+        hinges = {
+            f"{part}_hinge_{what}": float(rng.uniform(*span))
+            for part in ("frame", "fork")
+            for what, span in (("x", (0.0, 1.2)), ("z", (-1.0, 0.1)), ("tilt", (-1.2, 1.2)))
+        }
+        stiffness = {"frame_torsion_stiffness": 3e3, "fork_bending_stiffness": 1e3, "fork_bending_damping": 2.0}
+        geometry = {"trail": float(rng.uniform(-0.05, 0.1)), "steer_axis_tilt": float(rng.uniform(-0.3, 0.6))}
+        bicycle = load_bicycle(name).replace(**hinges, **stiffness, **geometry)
+        assert_equal(coefficients(bicycle), multibody(bicycle))

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import re
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -82,3 +85,19 @@ def test_what_tyres_refuse():
         tyre_model(load_bicycle("benchmark"), tyre, tyre).eigenvalues(0.0)
     with pytest.raises(InputError, match="one design at a time"):
         tyre_model(load_bicycle("benchmark").replace(trail=np.array([0.05, 0.06])), tyre, tyre)
+
+
+def test_the_program_and_the_tables_of_the_page(capsys):
+    page = (Path(__file__).parents[2] / "docs" / "soft.md").read_text(encoding="utf-8")
+    (program,) = re.findall(r"```python\n(.*?)```", page, flags=re.DOTALL)
+    exec(compile(program, "soft.md", "exec"), {})  # noqa: S102  # our own page
+    off, on = capsys.readouterr().out.splitlines()
+    assert "0.98" in off or "0.99" in off
+    assert "-2.2" in on
+    stratos, rider = load_bicycle("stratos"), load_rider("rider-a")
+    for row in re.findall(r"\| ([0-9]+) \| ([0-9.]+) \| ([0-9.]+) \| -", page):
+        stiffness = 1e3 * float(row[0])
+        soft = SOFT | {"fork_bending_stiffness": stiffness, "fork_bending_damping": 0.003 * stiffness}
+        for posture, printed in zip(("rigid", "leaned"), row[1:], strict=True):
+            speeds = coefficients(stratos.replace(**soft), rider, posture).critical_speeds().weave
+            assert min(abs(speed - float(printed)) for speed in speeds) < 0.006

@@ -112,7 +112,7 @@ def main() -> int:
     summary = {}
     with tempfile.TemporaryDirectory() as folder:
         for name in names:
-            summary[name] = fuzz(name, options.count // len(names), options.seed, Path(folder), options.keep)
+            summary[name] = fuzz(name, -(-options.count // len(names)), options.seed, Path(folder), options.keep)
     wrong = [line for found in summary.values() for line in found.pop("wrong")]
     megabytes = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
     if megabytes > MEGABYTES:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Literal
 
@@ -15,10 +16,12 @@ __all__ = [
     "Closure",
     "CoordinateForce",
     "Force",
+    "Ratio",
     "Sensor",
     "Spring",
     "Torque",
     "Wheel",
+    "close_direction",
     "close_distance",
     "close_joint",
     "close_point",
@@ -151,6 +154,51 @@ def close_joint(
         return replace(closure, orthogonal=((axis, second_axis),))
     directions = {"cylindrical": across, "prismatic": across, "planar": (axis,)}.get(kind, closure.directions)
     return replace(closure, directions=directions, orthogonal=keyed if kind in {"fixed", "prismatic"} else parallel)
+
+
+def close_direction(name: str, first: str, second: str, axis: Vector, *, second_axis: Vector | None = None) -> Closure:
+    """Return a loop that keeps an axis of the second body parallel to one of the first, wherever they are.
+
+    >>> close_direction("level", "ground", "tray", (0, 0, 1)).rows
+    ('level (angle 1)', 'level (angle 2)')
+    """
+    own = check_axis(f"loop {name}", "axis", axis)
+    other = own if second_axis is None else check_axis(f"loop {name}", "second axis", second_axis)
+    return Closure(name, first, second, orthogonal=tuple((direction, other) for direction in perpendiculars(own)))
+
+
+@dataclass(frozen=True, eq=False)
+class Ratio:
+    """A fixed ratio between joint coordinates, as gears and chains make it: ``sum of factor q = offset``.
+
+    Parameters
+    ----------
+    name
+        Its name.
+    factors
+        Factor of each coordinate, by name.
+    offset
+        In the coordinates' units.
+
+    Examples
+    --------
+    A chain from 44 to 16 teeth:
+
+    >>> Ratio("chain", {"crank": 44.0, "rear wheel": -16.0}).offset
+    0.0
+    """
+
+    name: str
+    factors: Mapping[str, Scalar]
+    offset: Scalar = 0.0
+
+    def __post_init__(self) -> None:
+        element = f"ratio {self.name}"
+        checked = {name: check_number(element, f"factor of {name}", value) for name, value in self.factors.items()}
+        if not any(not is_number(value) or value for value in checked.values()):
+            raise ModelError(f"{element}: needs a coordinate with a factor that is not zero")
+        object.__setattr__(self, "factors", checked)
+        object.__setattr__(self, "offset", check_number(element, "offset", self.offset))
 
 
 @dataclass(frozen=True, eq=False)
