@@ -9,6 +9,7 @@ import numpy as np
 
 from singletrack.arrays import Array, as_arrays, is_concrete, refuse_single, require_double
 from singletrack.closed_form.flexible import flexible_matrices, hinge_laws
+from singletrack.closed_form.round_tyres import on_round_tyres
 from singletrack.closed_form.slaved import slaved_matrices
 from singletrack.closed_form.whipple import whipple_matrices
 from singletrack.model import COORDINATES, INPUTS, LinearModel
@@ -71,7 +72,7 @@ def coefficients(bicycle: Bicycle, rider: Rider | None = None, options: Options 
         options.require_rider()
         laws = _steer_laws(options, 1)
         model = LinearModel(*bare, bicycle.gravity, faults=bicycle.standing_faults, C0=laws[0], S0=laws[1])
-        return _checked(_softened(model, bicycle, None), bicycle.name)
+        return _checked(on_round_tyres(_softened(model, bicycle, None), bicycle, None), bicycle.name)
     posture = seat(bicycle, rider, options)
     bodies = slaved_mass(posture, bicycle)
     added = slaved_matrices(bodies, bicycle)
@@ -95,7 +96,7 @@ def coefficients(bicycle: Bicycle, rider: Rider | None = None, options: Options 
         coordinates=(*COORDINATES, *bodies.freedoms),
         inputs=(*INPUTS, *map(input_name, bodies.freedoms)),
     )
-    return _checked(_softened(model, bicycle, posture), bicycle.name)
+    return _checked(on_round_tyres(_softened(model, bicycle, posture), bicycle, posture), bicycle.name)
 
 
 def _softened(model: LinearModel, bicycle: Bicycle, posture: Posture | None) -> LinearModel:
