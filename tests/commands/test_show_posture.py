@@ -48,7 +48,7 @@ def test_a_rider_known_on_no_shipped_bicycle(tmp_path):
     text = shipped("rider")["rider-a"].read_text(encoding="utf-8")
     angles = text[text.index("{ stratos") : text.index("}") + 1]
     (tmp_path / "me.toml").write_text(text.replace(angles, '{ mine = "70 deg" }'))
-    with pytest.raises(InputError, match="upright: .* has a forward lean angle on no shipped bicycle"):
+    with pytest.raises(InputError, match=r"upright: rider .* has a lean angle on no shipped bicycle"):
         show.run("upright", ModelOptions(rider=str(tmp_path / "me.toml")))
 
 

@@ -34,7 +34,7 @@ def mechanism_lines(mechanism: Mechanism, seated: Posture | None = None) -> Iter
     >>> from singletrack.posture import load_posture
     >>> for line in list(mechanism_lines(load_posture("upright")))[3:7]:
     ...     print(line)
-    frame: head, torso, right upper leg, right lower leg, left upper leg, left lower leg
+    frame: torso, head, right upper leg, right lower leg, left upper leg, left lower leg
       right shoulder flexion: hinge about y at right shoulder
         right shoulder rotation: hinge about right shoulder - right elbow at right shoulder; right upper arm
           right elbow: hinge about the normal to the right arm at right elbow; right lower arm
