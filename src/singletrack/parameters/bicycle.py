@@ -20,7 +20,7 @@ __all__ = ["FLATNESS_TOLERANCE", "FRAME_GEOMETRY", "Bicycle"]
 _GENERAL, _REAR_WHEEL, _REAR_FRAME = "bicycle", "rear wheel", "rear frame (body and frame assembly)"
 _FRONT_FRAME, _FRONT_WHEEL = "front frame (handlebar and fork assembly)", "front wheel"
 _GRIPS = "grips (where they are not level with the stem top, as wide as the shoulders)"
-_SOFT = "soft frame and fork (rigid where no stiffness is given)"
+_SOFT = "soft frame and fork (rigid without stiffness; hinges by default at the fork's crown)"
 _GEOMETRY = "frame geometry (needed to seat a rider)"
 
 
