@@ -5,20 +5,15 @@ from singletrack.multibody.bicycle.hands_free import free_turns, hands_free_fami
 from singletrack.multibody.bicycle.model import bicycle_model, ride
 from singletrack.multibody.bicycle.turning import circle, held_turn, held_turns
 from singletrack.multibody.engine.assembly import assemble, move
-from singletrack.multibody.engine.connections import (
+from singletrack.multibody.engine.closures import (
     Closure,
-    CoordinateForce,
-    Force,
     Ratio,
-    Sensor,
-    Spring,
-    Torque,
-    Wheel,
     close_direction,
     close_distance,
     close_joint,
     close_point,
 )
+from singletrack.multibody.engine.connections import CoordinateForce, Force, Sensor, Spring, Torque, Wheel
 from singletrack.multibody.engine.dynamics import Response, accelerations, loop_forces, wheel_forces
 from singletrack.multibody.engine.elements import (
     GROUND,

@@ -1,7 +1,7 @@
 """Which segments of the rider move with the steer, and how."""
 
 from singletrack.posture.arguments import require_bicycle, require_posture, require_records
-from singletrack.posture.bodies import SlavedBodies, slaved_bodies
+from singletrack.posture.bodies import SlavedBodies, SlavedMass, slaved_bodies, slaved_mass
 from singletrack.posture.mechanism import HANDLEBAR, Mechanism
 from singletrack.posture.options import ARMS, POSTURES, SHOULDERS, STEER, Options, input_name
 from singletrack.posture.residual import loop_residual
@@ -22,6 +22,7 @@ __all__ = [
     "Options",
     "Posture",
     "SlavedBodies",
+    "SlavedMass",
     "input_name",
     "load_posture",
     "loop_residual",
@@ -33,6 +34,7 @@ __all__ = [
     "require_records",
     "seat",
     "slaved_bodies",
+    "slaved_mass",
     "steer_axis",
     "steered_skeleton",
 ]

@@ -12,7 +12,8 @@ from singletrack.multibody.engine.kinematics import DOWN, SX, Wrench, column, sl
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from singletrack.multibody.engine.connections import Closure, Ratio, Wheel
+    from singletrack.multibody.engine.closures import Closure, Ratio
+    from singletrack.multibody.engine.connections import Wheel
     from singletrack.multibody.engine.kinematics import Frame
     from singletrack.multibody.engine.system import System
 

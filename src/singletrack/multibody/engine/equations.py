@@ -35,7 +35,8 @@ from singletrack.multibody.engine.forces import (
 from singletrack.multibody.engine.kinematics import SX, Frame, Wrench, column, forward, inverse, unit
 
 if TYPE_CHECKING:
-    from singletrack.multibody.engine.connections import Closure, Spring
+    from singletrack.multibody.engine.closures import Closure
+    from singletrack.multibody.engine.connections import Spring
     from singletrack.multibody.engine.system import System
 
 __all__ = ["Equations", "derive"]
