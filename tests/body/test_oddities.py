@@ -7,11 +7,15 @@ from math import radians
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
-from singletrack import OddityWarning, coefficients, load_bicycle, load_rider
+from singletrack import InputError, OddityWarning, coefficients, load_bicycle, load_rider
+from singletrack.body.oddities import warn_of_oddities
 from singletrack.body.reach import reach
 from singletrack.body.skeleton import skeleton
 from singletrack.library import shipped
+from singletrack.parameters.plausibility import oddities
 
 STRATOS, RIDER = load_bicycle("stratos"), load_rider("rider-a")
 
@@ -71,3 +75,34 @@ def test_nothing_is_said_of_what_is_shipped(name):
     assert said_of(load_bicycle(name)) == []
     if name in RIDER.forward_lean_angles:
         assert said_of(load_bicycle(name), RIDER, "upright") == []
+
+
+@given(st.data())
+def test_whatever_is_allowed_is_warned_about_or_not_but_never_fails(data):
+    """Warnings name parameters that exist, what was found there, and one line of words; batches of one say nothing."""
+    base = data.draw(st.sampled_from([STRATOS, RIDER]))
+    name = data.draw(st.sampled_from(list(base.descriptions())))
+    least, most = base.descriptions()[name].bounds
+    size = data.draw(st.floats(max(least, 1e-9), min(most, 1e3)))
+    try:
+        record = base.replace(**{name: data.draw(st.sampled_from([size, -size]))})
+    except InputError:
+        return
+    with warnings.catch_warnings(record=True, action="always") as said:
+        warn_of_oddities(record)
+    for warning in said:
+        message = warning.message
+        assert isinstance(message, OddityWarning)
+        assert message.parameter in record.descriptions()
+        assert np.isfinite(message.found)
+        assert message.expected
+        assert "\n" not in str(message)
+    assert {oddity.text for oddity in oddities(record)} <= {warning.message.reason for warning in said}
+    warn_of_oddities(record.replace(**{name: np.array([getattr(record, name)])}))
+
+
+@given(st.floats(60.0, 300.0))
+def test_millimetres_are_recognised_where_they_make_sense(millimetres):
+    (first, *_) = oddities(STRATOS.replace(trail=min(millimetres, 100.0)))
+    assert "millimetres written as metres?" in str(first)
+    assert "?" not in str(oddities(STRATOS.replace(trail=1.2))[0])

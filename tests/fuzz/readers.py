@@ -20,11 +20,13 @@ from singletrack.files.text import write_bicycle_text
 from singletrack.files.toml_read import parse_record
 from singletrack.files.toml_write import write_toml
 from singletrack.files.yeadon import read_configuration
+from singletrack.library import shipped
 from singletrack.library.load import load_any
 from singletrack.linear import modes
 from singletrack.measuring.oscillation import fit_oscillation
 from singletrack.parameters import Bicycle, Rider
 from singletrack.parameters.bodies import with_rigid_rider
+from singletrack.posture import Mechanism, load_posture
 
 __all__ = ["READERS", "check"]
 
@@ -40,6 +42,8 @@ def check(result: object) -> None:
     """Raise unless all that follows from what was read is finite, or refused in words."""
     if isinstance(result, Bicycle):
         _check_bicycle(result)
+    elif isinstance(result, Mechanism):
+        _check_posture(result)
     elif isinstance(result, Rider):
         _check_rider(result)
     elif result is not None and not np.isfinite(np.asarray(result, dtype=float)).all():
@@ -76,6 +80,15 @@ def _check_rider(rider: Rider) -> None:
             continue
 
 
+def _check_posture(mechanism: Mechanism) -> None:
+    try:
+        model = coefficients(load_bicycle("stratos"), load_rider("rider-a"), mechanism)
+    except SingletrackError:
+        return
+    if not all(np.isfinite(matrix).all() for matrix in (model.M, model.C1, model.K0, model.K2, model.C0, model.S0)):
+        raise SilentError("matrices that are not finite, without a word")
+
+
 def _configuration(path: Path) -> float:
     return read_configuration(read_text(path), str(path))
 
@@ -96,6 +109,7 @@ def _speeds(path: Path) -> np.ndarray:
 def _sound():
     stratos = load_bicycle("stratos").replace(standard_deviations={"trail": 0.0016, "steer_axis_tilt": 0.003})
     rider = "mB = 72.0+/-2.0\nxB = 0.3\nyB = 0.0\nzB = -1.1\nIBxx = 8.0\nIBxz = -1.9\nIByy = 8.1\nIBzz = 2.4\n"
+    posture = shipped("posture")["upright-abduction"].read_text(encoding="utf-8")
     angles = "somersault: 0.175\ntilt: 0.0\ntwist: 0.0\nCA1extension: 0.0\nJ1J2flexion: 0.0\n"
     return {
         "toml bicycle": (".toml", "toml", write_toml(stratos), load_any),
@@ -109,6 +123,7 @@ def _sound():
         "configuration": (".txt", "colon", angles, _configuration),
         "signal": (".csv", "columns", MADE["signal"](), _signal),
         "speeds": ("", "cells", "5 km/h:40 km/h:8", _speeds),
+        "posture": (".toml", "toml", posture, load_posture),
         "any": ("", "toml", write_toml(stratos), load_any),
     }
 

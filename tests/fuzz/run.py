@@ -30,9 +30,11 @@ CORPUS = Path(__file__).with_name("corpus")
 SECONDS, MEGABYTES, LONGEST = 2.0, 300, 1500
 #: Hard stops, far beyond what is allowed: a runaway input ends the process instead of the machine.
 ADDRESS_SPACE = 4 << 30
+#: How messages say where it is, besides by a line: the file as a whole, an option, a joint or a loop.
 WHOLE = re.compile(
     MADE["WHOLE"].pattern
     + r"|mass matrix|must be |is not a number|unknown unit|has a unit|standard deviation|; allowed: "
+    + r"|: joint |: loop |: posture |\[\[\w+\]\]|segments"
 )
 
 
@@ -110,7 +112,7 @@ def main() -> int:
     summary = {}
     with tempfile.TemporaryDirectory() as folder:
         for name in names:
-            summary[name] = fuzz(name, options.count // len(names), options.seed, Path(folder), options.keep)
+            summary[name] = fuzz(name, -(-options.count // len(names)), options.seed, Path(folder), options.keep)
     wrong = [line for found in summary.values() for line in found.pop("wrong")]
     megabytes = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
     if megabytes > MEGABYTES:

@@ -213,7 +213,13 @@ def test_not_computed_never_and_faulty_are_three_things(study: Study, store: Pat
     status = whole.weave_status.values.ravel()
     assert set(status) == {1, 2, 3}  # found, never, faulty
     np.testing.assert_array_equal(part.weave_status, np.where(np.arange(20) < CHUNK, status, 0))
-    assert part.weave_status.attrs["flag_meanings"].split() == ["not_computed", "found", "never", "faulty"]
+    assert part.weave_status.attrs["flag_meanings"].split() == [
+        "not_computed",
+        "found",
+        "never",
+        "faulty",
+        "could_not_tell",
+    ]
     assert part.status.attrs["flag_meanings"].split() == ["not_computed", "computed", "faulty"]
     told = json.loads(json.dumps(designs_to_dicts(whole), allow_nan=False))
     for design, code in zip(told, status, strict=True):

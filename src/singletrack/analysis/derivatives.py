@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from singletrack.arrays import complex_steps
+from singletrack.body.oddities import warn_of_oddities
 from singletrack.closed_form import coefficients
 from singletrack.errors import InputError
 from singletrack.linear import eigenvalues
@@ -155,6 +156,7 @@ def derivatives(
     for name in names:
         if name not in known:
             raise InputError(f"{name} is no parameter of this bicycle or rider (known: {', '.join(known)})")
+    warn_of_oddities(bicycle, rider)
     model = coefficients(bicycle, rider, options)
     with complex_steps():
         moved = coefficients(*shifted(bicycle, rider, names, 1j * _STEP * np.eye(len(names))), options)

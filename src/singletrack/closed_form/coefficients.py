@@ -8,14 +8,17 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from singletrack.arrays import Array, as_arrays, is_concrete, refuse_single, require_double
+from singletrack.closed_form.flexible import flexible_matrices, hinge_laws
 from singletrack.closed_form.slaved import slaved_matrices
 from singletrack.closed_form.whipple import whipple_matrices
 from singletrack.model import COORDINATES, INPUTS, LinearModel
 from singletrack.model.definite import indefinite
+from singletrack.parameters.flexible import soft_hinges
 from singletrack.posture import STEER, Options, input_name, seat, slaved_bodies
 
 if TYPE_CHECKING:
     from singletrack.parameters import Bicycle, Rider
+    from singletrack.posture import SlavedBodies
 
 __all__ = ["coefficients"]
 
@@ -68,7 +71,7 @@ def coefficients(bicycle: Bicycle, rider: Rider | None = None, options: Options 
         options.require_rider()
         laws = _steer_laws(options, 1)
         model = LinearModel(*bare, bicycle.gravity, faults=bicycle.standing_faults, C0=laws[0], S0=laws[1])
-        return _checked(model, bicycle.name)
+        return _checked(_softened(model, bicycle, None), bicycle.name)
     bodies = slaved_bodies(seat(bicycle, rider, options), bicycle)
     added = slaved_matrices(bodies, bicycle)
     faults = bicycle.standing_faults + rider.standing_faults + bodies.faults
@@ -91,7 +94,29 @@ def coefficients(bicycle: Bicycle, rider: Rider | None = None, options: Options 
         coordinates=(*COORDINATES, *bodies.freedoms),
         inputs=(*INPUTS, *map(input_name, bodies.freedoms)),
     )
-    return _checked(model, bicycle.name)
+    return _checked(_softened(model, bicycle, bodies), bicycle.name)
+
+
+def _softened(model: LinearModel, bicycle: Bicycle, bodies: SlavedBodies | None) -> LinearModel:
+    """Return a model with the freedoms of a soft frame and fork, where the bicycle has them."""
+    hinges = soft_hinges(bicycle)
+    if not hinges:
+        return model
+    # The twist of the frame is already there where it carries a handlebar that is held.
+    soft = tuple(hinge.name for hinge in hinges if hinge.name not in model.coordinates)
+    matrices = flexible_matrices(bicycle, bodies, model.coordinates[2:])
+    coordinates = (*model.coordinates, *soft)
+    laws = hinge_laws(bicycle, coordinates)
+    C0, S0 = (_padded(own, len(soft)) + law for own, law in zip((model.C0, model.S0), laws, strict=True))
+    return LinearModel(
+        *matrices,
+        model.gravity,
+        faults=model.faults,
+        C0=C0,
+        S0=S0,
+        coordinates=coordinates,
+        inputs=(*model.inputs, *map(input_name, soft)),
+    )
 
 
 def _padded(matrix: Array, more: int) -> Array:

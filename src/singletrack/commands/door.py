@@ -41,6 +41,7 @@ COMMANDS = {
     "spacar": "Run a file of SPACAR: motion, small motions, equilibrium, buckling; rigid and flexible.",
     "sweep": "Compute many designs as a study file says; interrupted, the same command goes on.",
     "turn": "Print a steady turn: lean, steer, hand torque, path, forces, and whether it is stable.",
+    "ride": "Ride a bicycle, nonlinear, until it falls or the time is over; draw, animate and write the ride.",
 }
 
 _SETTINGS = {"help_option_names": ["-h", "--help"]}

@@ -19,6 +19,7 @@ __all__ = [
     "SpeedsOption",
     "TemplateKind",
     "ThingArgument",
+    "TyresOption",
 ]
 
 
@@ -66,3 +67,12 @@ SpeedsOption = Annotated[
 JsonOption = Annotated[bool, typer.Option("--json", help="Print JSON in full precision.")]
 OutputFileOption = Annotated[Path | None, typer.Option("--output", metavar="FILE", help="Write here instead.")]
 CsvOption = Annotated[bool, typer.Option("--csv", help="Print CSV in full precision.")]
+TyresOption = Annotated[
+    str | None,
+    typer.Option(
+        "--tyres",
+        metavar="C,D,S[/C,D,S]",
+        help="Tyres that slip, not rolling: cornering and camber stiffness, relaxation length, front / rear; "
+        'e.g. "9 kN/rad, 500 N/rad, 0.1 m".',
+    ),
+]

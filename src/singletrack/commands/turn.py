@@ -24,7 +24,7 @@ from singletrack.public.turning import turn, turn_family
 if TYPE_CHECKING:
     from singletrack.public.turning import Turn, TurnFamily
 
-__all__ = ["run"]
+__all__ = ["number_of", "run"]
 
 _FIGURES = (".png", ".svg", ".pdf")
 
@@ -49,14 +49,14 @@ def run(
         raise InputError("turn: found neither or both of --lean and --radius, must be one of them")
     record, rider, changed = seated(load_bicycle(bicycle), options)
     warn_of_oddities(record, rider)
-    v = _number("--speed", speed, "m/s")
+    v = number_of("--speed", speed, "m/s")
     found = turn(
         record,
         rider,
         options.sitting,
         speed=v,
-        lean=None if lean is None else _number("--lean", lean, "rad"),
-        radius=None if radius is None else _number("--radius", radius, "m"),
+        lean=None if lean is None else number_of("--lean", lean, "rad"),
+        radius=None if radius is None else number_of("--radius", radius, "m"),
     )
     who = "" if rider is None else f" with {rider.name or 'rider'}, {options.sitting.title}"
     title = f"{record.name}{who}{changed}, {v:g} m/s"
@@ -69,7 +69,20 @@ def run(
         show(f"steady turn of {title}\n{_text(found)}")
 
 
-def _number(option: str, text: str, unit: str) -> float:
+def number_of(option: str, text: str, unit: str) -> float:
+    """Return the value of an option, a number in SI or with a unit.
+
+    Parameters
+    ----------
+    option, text : str
+    unit : str
+        Of the number, if it has none.
+
+    Raises
+    ------
+    InputError
+        If it is no quantity of this kind; the option is named.
+    """
     try:
         return float(parse_quantity(text, unit).value)
     except InputError as error:

@@ -77,21 +77,34 @@ def place_of_any(where: str, text: str, names: Iterable[str]) -> str:
 def _lines_of_keys(text: str) -> Mapping[str, int]:
     """Return the first line on which each name stands before ``=``, before or after a dot, or in a table's heading."""
     found: dict[str, int] = {}
-    number, candidate, heading = 1, "", False
+    number, candidate, heading, in_value, brackets = 1, None, False, False, ""
     for token in _TOKEN.finditer(text):
         kind, content = token.lastgroup, token[0]
         if kind in {"word", "quoted"}:
             candidate = content if kind == "word" else _unquoted(content)
-            pending = True
         elif kind == "sign":
-            if candidate is not None and (content in "=." or (content == "]" and heading)) and pending:
+            ends_a_key = content == "=" or (content == "." and not in_value) or (content == "]" and heading)
+            if candidate is not None and ends_a_key:
                 found.setdefault(candidate, number)
-            heading = heading or (content == "[")
-            pending = False
+            candidate = None
+            heading = heading or (content == "[" and not in_value)
+            brackets, in_value = _inside(content, brackets, in_value, heading)
         elif kind in {"line", "long"}:
             number += content.count("\n")
-            heading, pending = False, False
+            candidate, heading = None, False
+            in_value = in_value and bool(brackets)
     return found
+
+
+def _inside(sign: str, brackets: str, in_value: bool, heading: bool) -> tuple[str, bool]:
+    """Return the brackets that are open after a sign, and whether a value is next (1.5 has no key 1)."""
+    if sign in "[{" and not heading:
+        return brackets + sign, sign == "["
+    if sign in "]}" and brackets:
+        return brackets[:-1], True
+    if sign == ",":
+        return brackets, brackets.endswith("[")
+    return brackets, in_value or sign == "="
 
 
 def _unquoted(quoted: str) -> str:

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import re
-import tomllib
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
 from singletrack.errors import InputError, SingletrackError, shown, unknown_name
-from singletrack.files.toml_keys import line_of_deep_key, place_of, place_of_any
+from singletrack.files.toml_keys import place_of, place_of_any
+from singletrack.files.toml_text import parse_toml
 from singletrack.parameters.hints import unknown_parameter
 from singletrack.parameters.record import Record
 from singletrack.parameters.rider import Rider
@@ -55,7 +54,7 @@ def parse_record(cls: type[R], text: str, where: str) -> R:
         Names the file, the line, the parameter, what was found and what is allowed.
     """
     file = _File(where, text)
-    document = _parsed(file)
+    document = parse_toml(text, where)
     parameters = _checked_header(cls, document, file)
     fields, deviations = _quantities(cls, parameters, file)
     extras, uncertain = _extras(cls, document, file)
@@ -68,23 +67,6 @@ def parse_record(cls: type[R], text: str, where: str) -> R:
         return cls(**fields, **shapes, **texts, standard_deviations=deviations | uncertain)  # type: ignore[arg-type]  # checked above
     except SingletrackError as error:
         raise error.located(lambda names: place_of_any(where, text, names)) from None
-
-
-def _parsed(file: _File) -> dict[str, object]:
-    deep = line_of_deep_key(file.text)
-    if deep is not None:
-        raise InputError(f"{file.where}, line {deep}: is not valid TOML: nested too deeply (dots)")
-    try:
-        return tomllib.loads(file.text)
-    except tomllib.TOMLDecodeError as error:
-        raise InputError(f"{file.where}: is not valid TOML: {error}") from None
-    except RecursionError:
-        raise InputError(f"{file.where}: is not valid TOML: nested too deeply") from None
-    except ValueError:  # Python's limit on the digits of whole numbers
-        longest = max(re.finditer(r"\d+", file.text), key=lambda found: len(found[0]))
-        line = file.text.count("\n", 0, longest.start()) + 1
-        found = f"found a number of {len(longest[0])} digits, must be shorter"
-        raise InputError(f"{file.where}, line {line}: {found}") from None
 
 
 def _checked_header(cls: type[R], document: Mapping[str, object], file: _File) -> Mapping[str, object]:

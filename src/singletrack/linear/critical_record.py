@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from singletrack.linear.display import line_of_critical_speeds, table_of_critical_speeds
+
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
@@ -118,6 +120,13 @@ class CriticalSpeeds:
         """What became of a single design: "found", "none" (no crossing) or "could not tell" (a batch: nested lists)."""
         some = np.isfinite(self.weave_speeds).any(axis=-1) | np.isfinite(self.capsize_speeds).any(axis=-1)
         return np.where(self.told, np.where(some, "found", "none"), "could not tell").tolist()
+
+    def __repr__(self) -> str:
+        return line_of_critical_speeds(self)
+
+    def _repr_html_(self) -> str:
+        """Return a table, for notebooks."""
+        return table_of_critical_speeds(self)
 
     def to_dict(self) -> dict[str, Any]:
         """Return the lists for JSON; a range without end ends with None, since JSON has no infinity.

@@ -11,17 +11,22 @@ on as weave, and the root left over takes the other's name. Only there a column 
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from singletrack.errors import InputError
 from singletrack.linear.characteristic import characteristic_polynomial
+from singletrack.linear.display import line_of_modes, table_of_modes
 from singletrack.linear.eigenvalues import checked_speeds, eigenmotions, eigenvalues
 from singletrack.linear.meetings import Meetings, find_meetings
+from singletrack.linear.naming import follow
+from singletrack.linear.pencil import pencil
 from singletrack.linear.quartic.solve import quartic_roots
 from singletrack.linear.root_order import arrange, label_at_infinity, label_below, real_count
+from singletrack.model import COORDINATES
 
 if TYPE_CHECKING:
     import xarray
@@ -32,50 +37,78 @@ if TYPE_CHECKING:
 
 __all__ = ["Modes", "modes"]
 
+_NAMES = ("weave", "weave", "capsize", "castering")
+_LABELS = ("weave +", "weave -", "capsize", "castering")
+#: Designs of any number of freedoms followed at a time.
+_CHUNK = 256
+
 
 @dataclass(frozen=True, eq=False)
 class Modes:
-    """The eigenvalues at n speeds, one column for each mode.
+    """The eigenvalues at k speeds, one column for each mode of n freedoms.
 
     Attributes
     ----------
-    speeds : array, shape (n,)
+    speeds : array, shape (k,)
         Forward speeds in m/s.
-    eigenvalues : complex array, shape (..., n, 4)
+    eigenvalues : complex array, shape (..., k, 2 n)
         In 1/s; columns as in :attr:`names`. Of a weave pair, the first column has the
-        positive imaginary part; of two real weave roots it has the smaller.
-    eigenmotions : complex array, shape (..., n, 4, 2)
-        Lean and steer of each mode, lean normalised to one.
+        positive imaginary part; of two real weave roots it has the smaller. Likewise for further coordinates.
+    eigenmotions : complex array, shape (..., k, 2 n, n)
+        All coordinates in each mode, lean normalised to one.
+    coordinates : tuple of str
+        Names of the n coordinates.
+    dominant : int array, shape (..., k, 2 n)
+        Which coordinate takes most part in each motion, in units that make masses alike: |q_i|² M_ii is largest.
     """
 
     speeds: np.ndarray
     eigenvalues: np.ndarray
     eigenmotions: np.ndarray
+    coordinates: tuple[str, ...] = COORDINATES
+    dominant: np.ndarray | None = None
 
-    names: ClassVar[tuple[str, ...]] = ("weave", "weave", "capsize", "castering")
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Names of the columns: weave, weave, capsize, castering, then each further coordinate twice."""
+        return (*_NAMES, *(name for name in self.coordinates[2:] for _ in range(2)))
 
     @property
     def applies(self) -> np.ndarray:
-        """Whether each name describes the motion at each speed, bool array of shape (..., n, 4).
+        """Whether each name describes the motion at each speed, bool array of shape (..., k, 2 n).
 
         Weave: a pair of roots, an oscillation. Capsize: a real root. Castering: a real negative root whose motion is
-        mostly steer.
+        mostly steer. A further coordinate: it takes most part in the motion, a pair or two real roots; then none of
+        the other names applies.
         """
         roots = self.eigenvalues
+        size = np.abs(self.eigenmotions[..., 3, :])
         with np.errstate(invalid="ignore"):
             pair = (roots[..., :2].imag != 0) & (roots[..., :1] == np.conj(roots[..., 1:2]))
-            steer_dominates = np.abs(self.eigenmotions[..., 3, 1]) > np.abs(self.eigenmotions[..., 3, 0])
+            steer_dominates = (size[..., 1:2] > np.delete(size, 1, axis=-1)).all(axis=-1)
             castering = (roots[..., 3].imag == 0) & (roots[..., 3].real < 0) & steer_dominates
-        return np.concatenate([pair, roots[..., 2:3].imag == 0, castering[..., None]], axis=-1)
+        applies = np.concatenate([pair, roots[..., 2:3].imag == 0, castering[..., None]], axis=-1)
+        if self.dominant is not None:
+            further = self.dominant[..., 4:] == np.arange(4, roots.shape[-1]) // 2
+            applies = np.concatenate([applies & (self.dominant[..., :4] < 2), further], axis=-1)
+        known: np.ndarray = applies & np.isfinite(roots)
+        return known
 
     @property
     def steer_phase(self) -> np.ndarray:
-        """Phase of steer relative to lean, shape (..., n, 4), in rad: negative where steer lags."""
+        """Phase of steer relative to lean, shape (..., k, 2 n), in rad: negative where steer lags."""
         phase: np.ndarray = np.angle(self.eigenmotions[..., 1])
         return phase
 
+    def __repr__(self) -> str:
+        return line_of_modes(self)
+
+    def _repr_html_(self) -> str:
+        """Return a table, for notebooks."""
+        return table_of_modes(self)
+
     def to_dict(self) -> dict[str, Any]:
-        """Return speeds, eigenvalues as [n][4][re, im] and the names of the columns, for JSON."""
+        """Return speeds, eigenvalues as [k][2 n][re, im] and the names of the columns, for JSON."""
         parts = np.stack([self.eigenvalues.real, self.eigenvalues.imag], axis=-1)
         return {"speeds": self.speeds.tolist(), "eigenvalues": parts.tolist(), "modes": list(self.names)}
 
@@ -92,19 +125,19 @@ class Modes:
             },
             coords={
                 "speed": ("speed", self.speeds, {"units": "m/s"}),
-                "mode": ["weave +", "weave -", "capsize", "castering"],
-                "coordinate": ["lean", "steer"],
+                "mode": [*_LABELS, *(f"{name} {sign}" for name in self.coordinates[2:] for sign in "+-")],
+                "coordinate": list(self.coordinates),
             },
         )
 
 
 def modes(model: LinearModel, speeds: Array) -> Modes:
-    """Return the named modes of designs (...) at speeds (n,).
+    """Return the named modes of designs (...) at speeds (k,).
 
     Parameters
     ----------
     model : LinearModel
-    speeds : array, shape () or (n,)
+    speeds : array, shape () or (k,)
         Forward speeds in m/s, in any order, not negative.
 
     Raises
@@ -121,14 +154,36 @@ def modes(model: LinearModel, speeds: Array) -> Modes:
     v = checked_speeds(speeds)
     if (v < 0).any():
         raise InputError(f"speeds: found {v.min():g} m/s, must be zero or more (modes are named for riding forward)")
-    polynomials, batch = characteristic_polynomial(model).flat()
-    roots = eigenvalues(model, v).reshape(-1, len(v), 4)
+    if model.freedoms > 2 or not model.is_undamped:
+        return _of_any_freedoms(model, v)
+    with np.errstate(all="ignore"):  # faulty designs are NaN throughout
+        polynomials, batch = characteristic_polynomial(model).flat()
+    roots = eigenvalues(model, v).reshape(math.prod(batch), len(v), 4)
     usable = np.isfinite(roots).all(axis=(1, 2))
     named = np.full_like(roots, np.nan)
-    if usable.any():
+    if usable.any() and len(v):
         named[usable] = _follow(polynomials.rows(usable), v, roots[usable])
     named = named.reshape(*batch, len(v), 4)
     return Modes(v, named, eigenmotions(model, v, named))
+
+
+def _of_any_freedoms(model: LinearModel, v: np.ndarray) -> Modes:
+    p, _ = pencil(model)
+    roots = eigenvalues(model, v)
+    named = roots.reshape(len(p), len(v), 2 * model.freedoms).copy()
+    told = np.flatnonzero(p.told & np.isfinite(named).all(axis=(1, 2)) & bool(len(v)))
+    for start in range(0, len(told), _CHUNK):
+        rows = told[start : start + _CHUNK]
+        some = p.rows(rows)
+        rate = some.rate[:, None, None]
+        named[rows] = follow(some, v / some.speed[:, None], named[rows] / rate) * rate
+    named = named.reshape(roots.shape)
+    motions = eigenmotions(model, v, named)
+    if model.freedoms == 2:
+        return Modes(v, named, motions)
+    masses = np.sqrt(np.abs(np.diagonal(np.asarray(model.M), axis1=-2, axis2=-1)))
+    dominant = np.argmax(np.nan_to_num(np.abs(motions) * masses[..., None, None, :]), axis=-1)
+    return Modes(v, named, motions, model.coordinates, dominant)
 
 
 def _follow(p: CharacteristicPolynomial, v: np.ndarray, roots: np.ndarray) -> np.ndarray:

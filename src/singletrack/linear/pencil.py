@@ -36,6 +36,8 @@ class Pencil:
         A motion of the pencil times this is one of the model.
     speed, rate : array, shape (m,)
         The unit of speed in m/s, the unit of s in 1/s.
+    riding : array, shape (m,)
+        The speed, in its unit, at which the stiffness of gravity and that of speed are alike: some 2 m/s for bicycles.
     told : bool array, shape (m,)
         Whether there is anything to compute: all numbers finite, M regular. Where not, all matrices are zero.
     """
@@ -48,6 +50,7 @@ class Pencil:
     masses: np.ndarray
     speed: np.ndarray
     rate: np.ndarray
+    riding: np.ndarray
     told: np.ndarray
 
     def __len__(self) -> int:
@@ -94,19 +97,22 @@ def pencil(model: LinearModel) -> tuple[Pencil, tuple[int, ...]]:
         double = d[:, :, None] * d[:, None, :]
         names = ("M", "C0", "C1", "S0", "K0", "K2")
         M, C0, C1, S0, K0, K2 = (np.asarray(getattr(whole, a), dtype=float).reshape(-1, n, n) * double for a in names)
-        K0 = S0 + whole.gravity.reshape(-1, 1, 1) * K0
-        parts = np.stack([C0, C1, K0, K2])
+        weight = whole.gravity.reshape(-1, 1, 1) * K0
+        parts = np.stack([C0, C1, S0 + weight, K2, weight])
         told = np.isfinite(M).all(axis=(-2, -1)) & np.isfinite(parts).all(axis=(0, -2, -1)) & whole.valid.ravel()
         M = np.where(told[:, None, None], M, np.eye(n))
         size = np.linalg.svd(M, compute_uv=False)
         told &= size[:, -1] > _SINGULAR * size[:, 0]
         M = np.where(told[:, None, None], M, np.eye(n))
         parts = np.linalg.solve(M, np.where(told[:, None, None], parts, 0.0))
-        speed, rate = _units(*(np.abs(part).max(axis=(-2, -1)) for part in parts))
-        C0, C1, K0, K2 = parts / _column(rate)
+        sizes = [np.abs(part).max(axis=(-2, -1)) for part in parts]
+        speed, rate = _units(*sizes[:4])
+        riding = np.sqrt(sizes[4]) / np.sqrt(sizes[3]) / speed
+        riding = np.where(_usable(riding), riding, 1.0)
+        C0, C1, K0, K2 = parts[:4] / _column(rate)
         C1, K0, K2 = C1 * _column(speed), K0 / _column(rate), K2 * _column(speed) / _column(rate) * _column(speed)
     weights = np.sqrt(np.abs(np.diagonal(M, axis1=-2, axis2=-1)))
-    return Pencil(C0, C1, K0, K2, weights, d, speed, rate, told), batch
+    return Pencil(C0, C1, K0, K2, weights, d, speed, rate, riding, told), batch
 
 
 def _units(c0: np.ndarray, c1: np.ndarray, k0: np.ndarray, k2: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

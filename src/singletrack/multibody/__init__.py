@@ -1,8 +1,9 @@
 """A multibody engine: from bodies, joints, closed loops and rolling wheels to motion, and to its linearisation."""
 
 from singletrack.multibody.bicycle.coefficients import coefficients
+from singletrack.multibody.bicycle.hands_free import free_turns, hands_free_family
 from singletrack.multibody.bicycle.model import bicycle_model, ride
-from singletrack.multibody.bicycle.turning import circle, free_turns, hands_free_family, held_turn, held_turns
+from singletrack.multibody.bicycle.turning import circle, held_turn, held_turns
 from singletrack.multibody.engine.assembly import assemble, move
 from singletrack.multibody.engine.connections import (
     Closure,

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar
 
 from singletrack.arrays import Array
+from singletrack.parameters.flexible import hinge_faults
 from singletrack.parameters.inertia_rules import FLATNESS_TOLERANCE, inertia_faults, skate_faults
 from singletrack.parameters.record import Record, parameter
 
@@ -19,6 +20,7 @@ __all__ = ["FLATNESS_TOLERANCE", "FRAME_GEOMETRY", "Bicycle"]
 _GENERAL, _REAR_WHEEL, _REAR_FRAME = "bicycle", "rear wheel", "rear frame (body and frame assembly)"
 _FRONT_FRAME, _FRONT_WHEEL = "front frame (handlebar and fork assembly)", "front wheel"
 _GRIPS = "grips (where they are not level with the stem top, as wide as the shoulders)"
+_SOFT = "soft frame and fork (rigid where no stiffness is given)"
 _GEOMETRY = "frame geometry (needed to seat a rider)"
 
 
@@ -90,6 +92,29 @@ class Bicycle(Record):
     seat_tube_length: Array = parameter("m", "lst", "crank axle to seat tube top", group=_GEOMETRY, optional=True)
     stem_length: Array = parameter("m", "ls", "along the steer axis", group=_GEOMETRY, optional=True)
 
+    frame_torsion_stiffness: Array = parameter(
+        "N*m/rad", "kft", "of the rear frame's twist about its hinge", "positive", group=_SOFT, optional=True
+    )
+    frame_torsion_damping: Array = parameter(
+        "N*m*s/rad", "cft", "of that twist; else none", "not negative", group=_SOFT, optional=True
+    )
+    frame_hinge_x: Array = parameter("m", "xft", "point of the hinge, forward", "any", group=_SOFT, optional=True)
+    frame_hinge_z: Array = parameter("m", "zft", "point of the hinge, down", "any", group=_SOFT, optional=True)
+    frame_hinge_tilt: Array = parameter(
+        "rad", "λft", "of the hinge, front end up; else that of the steer axis", "tilt", group=_SOFT, optional=True
+    )
+    fork_bending_stiffness: Array = parameter(
+        "N*m/rad", "kfb", "of the front wheel's tilt in the fork", "positive", group=_SOFT, optional=True
+    )
+    fork_bending_damping: Array = parameter(
+        "N*m*s/rad", "cfb", "of that tilt; else none", "not negative", group=_SOFT, optional=True
+    )
+    fork_hinge_x: Array = parameter("m", "xfb", "point of the hinge, forward", "any", group=_SOFT, optional=True)
+    fork_hinge_z: Array = parameter("m", "zfb", "point of the hinge, down", "any", group=_SOFT, optional=True)
+    fork_hinge_tilt: Array = parameter(
+        "rad", "λfb", "of the hinge, front end up; else that of the steer axis", "tilt", group=_SOFT, optional=True
+    )
+
     handlebar_width: Array = parameter(
         "m", "whb", "between the grips; else that of the rider's shoulders", group=_GRIPS, optional=True
     )
@@ -102,6 +127,7 @@ class Bicycle(Record):
         return [name for name in FRAME_GEOMETRY if getattr(self, name) is None]
 
     def _physical_faults(self) -> Iterator[Fault]:
+        yield from hinge_faults(self)
         for body in ("rear_frame", "front_frame"):
             entries = [getattr(self, f"{body}_inertia_{axes}") for axes in ("xx", "yy", "zz", "xz")]
             yield from inertia_faults(body, ("xx", "yy", "zz", "xz"), *entries)

@@ -97,7 +97,15 @@ def parameter(
 def faults_of_value(name: str, value: Array, description: Parameter) -> Iterator[Fault]:
     """Yield what is wrong with one parameter: not finite, not allowed, beyond all bounds.
 
-    ``value`` is None, a float, or a concrete array of numbers (...); a sound float yields nothing.
+    A sound float yields nothing.
+
+    Parameters
+    ----------
+    name : str
+        Of the parameter.
+    value : None, float or array, shape (...)
+        Concrete; None where it is missing, which is no fault here.
+    description : Parameter
     """
     if value is None:
         return

@@ -3,22 +3,47 @@
 from __future__ import annotations
 
 from math import degrees
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
 from singletrack.arrays import Array, is_concrete
 from singletrack.markup import table, told
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
+    from collections.abc import Iterator, Mapping, Sequence
 
-    from singletrack.parameters.record import Record
+    from singletrack.parameters.description import Parameter
 
 __all__ = ["line_of", "table_of"]
 
 
-def line_of(record: Record, names: Sequence[str]) -> str:
+class _Described(Protocol):
+    """What is shown of a record."""
+
+    @property
+    def kind(self) -> str: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def description(self) -> str: ...
+    @property
+    def standard_deviations(self) -> Mapping[str, Array]: ...
+    @property
+    def shape(self) -> tuple[int, ...]: ...
+    def descriptions(self) -> dict[str, Parameter]: ...
+    def values(self) -> dict[str, Array]: ...
+
+
+def line_of(record: _Described, names: Sequence[str]) -> str:
     """Return one line: what it is, its name, the batch's shape, and some of its parameters.
 
+    Parameters
+    ----------
+    record : Record
+    names : sequence of str
+        The parameters to show.
+
+    Examples
+    --------
     >>> from singletrack import load_bicycle
     >>> line_of(load_bicycle("stratos"), ["wheel_base", "trail"])
     '<Bicycle stratos: wheel_base 1.037 m, trail 0.0563 m>'
@@ -29,14 +54,19 @@ def line_of(record: Record, names: Sequence[str]) -> str:
     return f"<{type(record).__name__}{f' {record.name}' if record.name else ''}: {', '.join(parts)}>"
 
 
-def table_of(record: Record) -> str:
-    """Return an HTML table of all parameters: name, symbol, value in SI (angles in degrees), deviation, meaning."""
+def table_of(record: _Described) -> str:
+    """Return an HTML table of all parameters: name, symbol, value in SI (angles in degrees), deviation, meaning.
+
+    Parameters
+    ----------
+    record : Record
+    """
     shape = f", {' × '.join(map(str, record.shape))} designs" if record.shape else ""
     caption = f"{record.kind} {record.name}{shape}" + (f": {record.description}" if record.description else "")
     return table(_rows(record), ["parameter", "symbol", "value", "±", ""], caption)
 
 
-def _rows(record: Record) -> Iterator[list[str]]:
+def _rows(record: _Described) -> Iterator[list[str]]:
     group = ""
     for name, description in record.descriptions().items():
         value = getattr(record, name)

@@ -130,7 +130,8 @@ def _ranges(record: Record) -> Iterator[Oddity]:
         if name == "trail" and value < 0:
             text = f"{found} is negative: the front wheel touches the ground ahead of the steer axis"
         else:
-            slips = [ask for factor, ask in _SLIPS.get(unit, ()) if low <= value * factor <= high and value > high]
+            least = max(low, high / 20)  # a trail of 1.2 m is no slip in the unit: nobody has one of 1.2 mm
+            slips = [ask for factor, ask in _SLIPS.get(unit, ()) if value > high and least <= value * factor <= high]
             text = "; ".join([f"{found} is outside what is usual, {expected}", *slips[:1]])
         yield Oddity(name, text, float(value), expected)
 

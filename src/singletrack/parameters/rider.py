@@ -128,7 +128,7 @@ class Rider(Record):
 
     @property
     def torso_section(self) -> tuple[Array, Array]:
-        """Width (along y) and thickness of the torso in m.
+        """Width (along y) and thickness of the torso in m, shape (...) each.
 
         As given; else the width is that between the insides of the upper arms, and a stadium of that width and the
         thickness has the chest's circumference (a given width leaves the thickness as derived).

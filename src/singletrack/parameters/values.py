@@ -73,6 +73,12 @@ def real_numbers(*values: Array) -> tuple[Array, ...] | None:
 
     None if one of them is missing, or hidden by JAX.
 
+    Parameters
+    ----------
+    *values : float or array, shape (...)
+
+    Examples
+    --------
     >>> real_numbers(1.0, 2.0)
     (1.0, 2.0)
     """

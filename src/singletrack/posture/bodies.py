@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -10,7 +10,10 @@ import numpy as np
 from singletrack.arrays import Array, as_arrays, is_concrete, stack
 from singletrack.arrays.faults import Fault, refuse_single
 from singletrack.errors import PostureError
+from singletrack.parameters.flexible import FRAME_TORSION, soft_hinges
+from singletrack.posture.mechanism import HANDLEBAR
 from singletrack.posture.motion import rider_motion
+from singletrack.posture.seated import Joint
 from singletrack.posture.twists import Motion, designs_last
 
 if TYPE_CHECKING:
@@ -97,6 +100,7 @@ def slaved_bodies(posture: Posture, bicycle: Bicycle) -> SlavedBodies:
         return SlavedBodies(
             mass, centre, inertia, still, still, still, posture.skeleton.faults + posture.faults, moving=()
         )
+    posture = _carried_by_soft_frame(posture, bicycle)
     motion = rider_motion(posture, bicycle)
     xp, (points,) = designs_last([centre], motion.shape)
     carries = posture.tree.carries
@@ -120,6 +124,14 @@ def slaved_bodies(posture: Posture, bicycle: Bicycle) -> SlavedBodies:
         stiffness=stiffness,
         moving=tuple(np.flatnonzero(carries.any(axis=1)).tolist()),
     )
+
+
+def _carried_by_soft_frame(posture: Posture, bicycle: Bicycle) -> Posture:
+    """Return a posture in which the twist of a soft frame is one more free joint, that which carries the handlebar."""
+    hinge = next((hinge for hinge in soft_hinges(bicycle) if hinge.name == FRAME_TORSION), None)
+    if hinge is None or all(loop.to != HANDLEBAR for loop in posture.loops):
+        return posture
+    return replace(posture, joints=(*posture.joints, Joint(hinge.name, "", hinge.point, hinge.axis, free=True)))
 
 
 def _massless(posture: Posture, rotation: Array, displacement: Array) -> tuple[Fault, ...]:

@@ -65,8 +65,12 @@ class Loops:
             for which, sign in ((self.tree.points.near, 1.0), (self.tree.points.far, -1.0)):
                 if which.any():
                     parting = parting + sign * motion.second(which, self.points, *motion.first(which, self.points))
-            turned = cross3(self.axis[:, None], cross3(self.axis[:, None], self.points - self.foot[:, None]))
-            parting = parting - self._steer_only(turned * self.tree.points.bar[:, None])
+            bar = self.tree.points.bar[:, None]
+            moved = cross3(self.axis[:, None], self.points - self.foot[:, None]) * bar
+            parting = parting - self._steer_only(cross3(self.axis[:, None], moved))
+            if (self.tree.points.far * bar).any():  # the steer is carried by a joint
+                carried = summed(self.tree.points.far, motion.spin)
+                parting = parting - self._with_steer(cross3(carried, moved[:, :, None]))
             rows.append(parting.reshape(-1, *parting.shape[2:]))
         if self.near is not None:
             rows.append(self._bending_angles(motion))
@@ -77,6 +81,11 @@ class Loops:
         count = len(self.tree.first)
         return stack([values, *[0.0 * values] * (count - 1)], -2) if count > 1 else values[:, :, None]
 
+    def _with_steer(self, values: Array) -> Array:
+        """Return values (3, k, f, N) as those of the pairs (steer, freedom), zero for the others."""
+        pairs = zip(self.tree.first, self.tree.second, strict=True)
+        return stack([values[:, :, j] if i == 0 < j else 0.0 * values[:, :, 0] for i, j in pairs], -2)
+
     def _bending_angles(self, motion: Motion) -> Array:
         """Return the second derivatives (Q, pairs, N) of the products of directions."""
         ends, tree = self.tree.angles, self.tree
@@ -85,6 +94,8 @@ class Loops:
             spin, bend = summed(which, motion.spin), summed(which, motion.bend_spin)
             if which is ends.far:  # the handlebar turns with the steer alone
                 bar = (self.axis[:, None] * ends.bar[:, None])[:, :, None]
+                if (ends.far * ends.bar[:, None]).any():
+                    bend = bend + self._with_steer(cross3(spin, bar)) / 2
                 spin = stack([spin[:, :, 0] + bar[:, :, 0], *(spin[:, :, k] for k in range(1, spin.shape[2]))], -2)
             first = cross3(spin, direction[:, :, None])  # type: ignore[index]
             second = cross3(bend, direction[:, :, None]) + symmetric(tree, spin, first)  # type: ignore[index]

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import tomllib
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -11,6 +10,7 @@ from typing import Any
 from singletrack.body import POINT_NAMES
 from singletrack.errors import InputError, unknown_name
 from singletrack.files.toml_keys import place_of
+from singletrack.files.toml_text import parse_toml
 from singletrack.parameters.units import parse_quantity
 from singletrack.posture.mechanism import FRAME, HANDLEBAR, Direction, JointPlan, LoopPlan, Mechanism, Place
 
@@ -56,10 +56,7 @@ def parse_mechanism(text: str, where: str) -> Mechanism:
     ...
     singletrack.errors.InputError: free.toml: posture free: segment head, torso, ... hangs on no joint; ...
     """
-    try:
-        document = tomllib.loads(text)
-    except (tomllib.TOMLDecodeError, RecursionError, ValueError) as error:
-        raise InputError(f"{where}: is not valid TOML: {error or 'nested too deeply'}") from None
+    document: dict[str, Any] = parse_toml(text, where)
     if document.get("kind") != "posture":
         raise InputError(f'{where}: is no mechanism: kind = {document.get("kind")!r}, must be kind = "posture"')
     reader = _Reader(where, text)

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from singletrack.errors import PostureError
+from singletrack.parameters.flexible import FRAME_TORSION
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -105,7 +106,9 @@ def make_tree(
     def ends(*, points: bool) -> LoopEnds:
         index = tuple(k for k, loop in enumerate(loops) if loop[3] == points)
         bar = np.array([float(loops[k][2] == "handlebar") for k in index])
-        return LoopEnds(index, rows([loops[k][1] for k in index]), rows([loops[k][2] for k in index]), bar)
+        # What carries the handlebar, where the frame is soft: a joint of this name.
+        far = [FRAME_TORSION if loops[k][2] == "handlebar" else loops[k][2] for k in index]
+        return LoopEnds(index, rows([loops[k][1] for k in index]), rows(far), bar)
 
     points, angles = ends(points=True), ends(points=False)
     free = np.array([i for i in range(n) if joints[i][3]], dtype=int)

@@ -12,10 +12,14 @@ from singletrack.present.style import COLOURS, new_figure, style
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
+    from matplotlib.text import Annotation
 
     from singletrack.linear import CriticalSpeeds, Modes
 
 __all__ = ["draw_eigenvalues", "eigenvalue_figure"]
+
+# Of the words above the axes: how far up they begin and how far apart rows are, in points; how far aside, in pixels.
+_ABOVE, _ROW, _ASIDE = 3, 11, 60
 
 
 def eigenvalue_figure(modes: Modes, critical: CriticalSpeeds, title: str, limit: float = 10.0) -> Figure:
@@ -33,18 +37,20 @@ def eigenvalue_figure(modes: Modes, critical: CriticalSpeeds, title: str, limit:
     with style():
         figure = new_figure(6.4, 4.6)
         axes = figure.add_subplot()
-        axes.set_title(title, loc="left", fontsize=10, pad=18)
+        axes.set_title(title, loc="left", fontsize=10)
         draw_eigenvalues(axes, modes, critical, limit)
     return figure
 
 
 def draw_eigenvalues(axes: Axes, modes: Modes, critical: CriticalSpeeds, limit: float = 10.0) -> None:
-    """Draw the eigenvalues of a single design on axes (see :func:`eigenvalue_figure`)."""
+    """Draw the eigenvalues of a single design on axes of any size (arguments as for :func:`eigenvalue_figure`)."""
     v = modes.speeds
     axes.set_xlim(float(v[0]), float(v[-1]))
     axes.set_ylim(-limit, limit)
     axes.set_xlabel("forward speed v (m/s)")
-    axes.set_ylabel("eigenvalues: Re λ solid, Im λ dashed (1/s)")
+    along = axes.set_ylabel("eigenvalues: Re λ solid, Im λ dashed (1/s)")
+    if along.get_window_extent().height > axes.get_window_extent().height:
+        axes.set_ylabel("eigenvalues (1/s):\nRe λ solid, Im λ dashed")
     for low, high in critical.stable_ranges:
         axes.axvspan(low, min(high, float(v[-1])), color=COLOURS["stable"], lw=0, zorder=0)
     axes.axhline(0.0, color="black", lw=0.8, zorder=1)
@@ -70,22 +76,55 @@ def _mark_speeds(axes: Axes, critical: CriticalSpeeds) -> list[float]:
         [(speed, "weave") for speed in critical.weave if low < speed < high]
         + [(speed, "capsize") for speed in critical.capsize if low < speed < high]
     )
-    for index, (speed, name) in enumerate(marks):
+    for speed, name in marks:
         axes.axvline(speed, color=COLOURS[name], lw=0.9, ls=":", zorder=2)
-        close = len(marks) > 1 and min(abs(speed - other) for other, _ in marks if other != speed) < 0.35 * (high - low)
-        side = "center" if not close else ("right" if index == 0 else "left")
+    texts = [
         axes.annotate(
             f"{name} speed {speed:.2f} m/s",
             (speed, 1.0),
             xycoords=("data", "axes fraction"),
-            xytext=({"center": 0, "right": -2, "left": 2}[side], 3),
+            xytext=(0, _ABOVE),
             textcoords="offset points",
-            ha=side,
+            ha="center",
             va="bottom",
             fontsize=8,
             color=COLOURS[name],
         )
+        for speed, name in marks
+    ]
+    rows = _arrange(axes, texts)
+    if rows:
+        _keep_clear(axes, rows)
     return [speed for speed, _ in marks]
+
+
+def _arrange(axes: Axes, texts: list[Annotation]) -> int:
+    """Move words above the axes aside, and into rows, until none covers another; return the number of rows."""
+    figure = axes.get_figure(root=True)
+    assert figure is not None  # noqa: S101  # drawn axes belong to a figure
+    figure.canvas.draw()  # laid out: the axes have their size now
+    per_point, across = figure.dpi / 72, axes.get_window_extent()
+    ends: list[float] = []  # of what stands in each row, in pixels
+    for text in texts:
+        box = text.get_window_extent()
+        shift = min(0.0, across.x1 - box.x1) + max(0.0, across.x0 - box.x0)
+        # A little to the right is better than a row up.
+        row = next((row for row, end in enumerate(ends) if box.x0 + max(shift, end - box.x0) <= box.x0 + _ASIDE), -1)
+        if row < 0 or box.x1 + max(shift, ends[row] - box.x0) > max(across.x1, box.x1 + shift) + 1:
+            row = len(ends)
+            ends.append(-np.inf)
+        shift = max(shift, ends[row] - box.x0)
+        ends[row] = box.x1 + shift + 6 * per_point
+        text.set_position((shift / per_point, _ABOVE + row * _ROW))
+    return len(ends)
+
+
+def _keep_clear(axes: Axes, rows: int) -> None:
+    """Hold the place of rows of words above the axes: titles, set before or after, stay above them."""
+    above = axes.secondary_xaxis("top")
+    above.set_ticks([float(np.mean(axes.get_xlim()))], ["\n".join([" "] * rows)], fontsize=8)
+    above.tick_params(length=0, pad=_ABOVE)
+    above.spines["top"].set_visible(False)
 
 
 def _broken(roots: np.ndarray, column: int) -> np.ndarray:

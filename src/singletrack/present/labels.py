@@ -29,10 +29,14 @@ class Curve:
 
 #: Points per curve that the search for a place looks at.
 _MOST_POINTS = 160
+#: Gap in pixels below which a label would cover something.
+_COVERS = -1.0
 
 
 def label_curves(axes: Axes, curves: list[Curve], vertical: list[float], size: float = 8.0) -> None:
     """Write each curve's label beside it, where it is farthest from all other curves, lines and labels.
+
+    A label for which there is no room is left out.
 
     Parameters
     ----------
@@ -55,14 +59,18 @@ def label_curves(axes: Axes, curves: list[Curve], vertical: list[float], size: f
     for index, curve in enumerate(curves):
         if not curve.label or len(points[index]) == 0:
             continue
-        half = np.array([0.30 * size * len(curve.label), 0.62 * size]) * per_point
+        text = axes.text(0, 0, curve.label, color=curve.colour, fontsize=size, ha="center", va="center")
+        half = np.asarray(text.get_window_extent().size) / 2 + 0.12 * size * per_point
         centres = points[index] if curve.on_points else _candidates(points[index], half, per_point)
         drawn = [cloud for cloud, other in zip(points, curves, strict=True) if not other.on_points]
         own = points[index] if not curve.on_points else np.empty((0, 2))
         clearance = _clearance(centres, half, drawn, own, lines, taken, box)
         best = int(np.argmax(clearance))
-        position = axes.transData.inverted().transform(centres[best])
-        axes.text(position[0], position[1], curve.label, color=curve.colour, fontsize=size, ha="center", va="center")
+        if clearance[best] < _COVERS:
+            text.remove()  # no room: the colour has to say it
+            continue
+        x, y = axes.transData.inverted().transform(centres[best])
+        text.set_position((float(x), float(y)))
         taken.append((*centres[best], *half))
 
 

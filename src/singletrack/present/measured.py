@@ -32,7 +32,7 @@ def measured_figure(modes: Modes, critical: CriticalSpeeds, runs: MeasuredModes,
     with style():
         figure = new_figure(6.4, 4.6)
         axes = figure.add_subplot()
-        axes.set_title(title, loc="left", fontsize=10, pad=18)
+        axes.set_title(title, loc="left", fontsize=10)
         middle = (runs.lowest_speeds + runs.highest_speeds) / 2
         reach = np.stack([middle - runs.lowest_speeds, runs.highest_speeds - middle])
         marks = [(runs.eigenvalues.real, "o", "measured Re weave"), (runs.eigenvalues.imag, "D", "measured Im weave")]

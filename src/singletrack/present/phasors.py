@@ -17,7 +17,14 @@ if TYPE_CHECKING:
 
 __all__ = ["phasor_figure"]
 
-_LEAN, _STEER = COLOURS["weave"], COLOURS["capsize"]
+#: Word, colour and width of each coordinate's phasor; the widest lies lowest.
+_COORDINATES = (
+    ("lean", COLOURS["weave"], 3.2),
+    ("steer", COLOURS["capsize"], 1.6),
+    ("torso", COLOURS["castering"], 1.6),
+)
+_REACH = 1.25
+_CLEAR = 0.05
 
 
 def phasor_figure(rows: list[tuple[str, Modes]], speed_index: int, title: str) -> Figure:
@@ -39,9 +46,10 @@ def phasor_figure(rows: list[tuple[str, Modes]], speed_index: int, title: str) -
     with style():
         figure = new_figure(7.2, 0.6 + 2.35 * len(rows))
         figure.suptitle(title, x=0.01, ha="left", fontsize=10)
-        grid = figure.subplots(len(rows), 3, squeeze=False)
+        columns = [0, *range(2, len(rows[0][1].names))]  # a pair of roots is one motion
+        grid = figure.subplots(len(rows), len(columns), squeeze=False)
         for axes_row, (name, modes) in zip(grid, rows, strict=True):
-            for axes, column in zip(axes_row, (0, 2, 3), strict=True):
+            for axes, column in zip(axes_row, columns, strict=True):
                 _draw_phasors(axes, modes, speed_index, column)
             axes_row[0].set_ylabel(f"{name}\nIm", fontsize=8)
         for axes in grid[-1]:
@@ -50,13 +58,10 @@ def phasor_figure(rows: list[tuple[str, Modes]], speed_index: int, title: str) -
 
 
 def _draw_phasors(axes: Axes, modes: Modes, index: int, column: int) -> None:
-    from matplotlib.patches import Circle  # lazy: heavy
+    from matplotlib.patches import Circle
 
     axes.set_aspect("equal")
-    axes.set_xlim(-1.25, 1.25)
-    axes.set_ylim(-1.25, 1.25)
-    axes.set_xticks([-1, 0, 1])
-    axes.set_yticks([-1, 0, 1])
+    axes.set(xlim=(-_REACH, _REACH), ylim=(-_REACH, _REACH), xticks=[-1, 0, 1], yticks=[-1, 0, 1])
     axes.tick_params(labelsize=7)
     axes.add_patch(Circle((0, 0), 1.0, fill=False, ec="#CCCCCC", lw=0.6))
     axes.axhline(0, color="#CCCCCC", lw=0.6, zorder=0)
@@ -64,24 +69,51 @@ def _draw_phasors(axes: Axes, modes: Modes, index: int, column: int) -> None:
     roots = modes.eigenvalues[index]
     motion = modes.eigenmotions[index, column]
     motion = motion / np.abs(motion).max()
-    applies = bool(modes.applies[index, column])
     text = format_root(roots[0], roots[1]) if column == 0 else format_root(roots[column])
-    name = modes.names[column] if applies else f"({modes.names[column]})"
+    name = modes.names[column] if modes.applies[index, column] else f"({modes.names[column]})"
     axes.set_title(f"{name}: {text} 1/s", fontsize=8)
-    above = 1.0 if abs(motion[1].imag) < 0.25 else 0.0
-    for phasor, colour, word, width in ((motion[0], _LEAN, "lean", 3.2), (motion[1], _STEER, "steer", 1.6)):
-        axes.annotate(
-            "",
-            (phasor.real, phasor.imag),
-            (0, 0),
-            arrowprops={"arrowstyle": "-|>", "color": colour, "lw": width, "shrinkA": 0, "shrinkB": 0},
-        )
-        at = _beside(phasor, 0.22 if word == "lean" else -0.22 * (above or 1.0))
-        axes.text(at.real, at.imag, word, color=colour, fontsize=8, ha="center", va="center")
+    taken: list[np.ndarray] = []
+    phasors = [np.array([phasor.real, phasor.imag]) for phasor in motion]
+    for phasor, (word, colour, width) in zip(phasors, _COORDINATES, strict=False):
+        _draw_arrow(axes, phasor, colour, width)
+        at = _place(phasor, phasors, taken, word)
+        taken.append(at)
+        axes.text(float(at[0]), float(at[1]), word, color=colour, fontsize=8, ha="center", va="center")
 
 
-def _beside(phasor: complex, distance: float) -> complex:
-    """Return a place beside the outer half of a phasor, at least far enough out to be clear of the other's foot."""
-    length = max(abs(phasor), 1e-9)
-    along = phasor / length
-    return along * max(0.62 * length, 0.42) + 1j * along * distance
+def _draw_arrow(axes: Axes, tip: np.ndarray, colour: str, width: float) -> None:
+    """Draw an arrow from the origin whose head is shorter than itself: it points its own way however short it is."""
+    from matplotlib.patches import Polygon
+
+    length = max(float(np.hypot(*tip)), 1e-12)
+    along, across = tip / length, np.array([-tip[1], tip[0]]) / length
+    head, half = min(0.14, 0.6 * length), min(0.03 + 0.012 * width, 0.4 * length)
+    foot = tip - head * along
+    axes.plot([0, foot[0]], [0, foot[1]], color=colour, lw=width, solid_capstyle="butt", zorder=3)
+    corners = [tip, foot + half * across, foot - half * across]
+    axes.add_patch(Polygon(corners, closed=True, fc=colour, ec="none", zorder=3))
+
+
+def _place(own: np.ndarray, phasors: list[np.ndarray], taken: list[np.ndarray], word: str) -> np.ndarray:
+    """Return the place of a word near its phasor that is clear of all phasors and of the words that are there."""
+    half = np.array([0.075 * len(word), 0.11])  # of the word's box, in units of the axes
+    angles = np.linspace(0, 2 * np.pi, 48, endpoint=False)
+    ring = np.stack([np.cos(angles), np.sin(angles)], axis=-1)
+    places = np.concatenate([share * own + radius * ring for share in (1.0, 0.7, 0.4) for radius in (0.24, 0.36, 0.5)])
+    places = places[(np.abs(places) + half < _REACH - 0.02).all(axis=-1)]
+    lines = [np.linspace(0, 1, 40)[:, None] * phasor for phasor in phasors]
+    gap = np.min([_clearance(places, half, line) for line in lines], axis=0)
+    for other in taken:
+        gap = np.minimum(gap, _clearance(places, half + half, other[None]))
+    distance = np.linalg.norm(places[:, None] - own * np.linspace(0.2, 1, 20)[:, None], axis=-1).min(axis=-1)
+    for line, phasor in zip(lines, phasors, strict=True):
+        if phasor is not own:  # rather on the side away from the others
+            distance -= np.minimum(np.linalg.norm(places[:, None] - line, axis=-1).min(axis=-1), 0.4)
+    best: np.ndarray = places[np.argmin(np.where(gap > _CLEAR, distance, 10 - gap))]
+    return best
+
+
+def _clearance(places: np.ndarray, half: np.ndarray, points: np.ndarray) -> np.ndarray:
+    """Return the gap between boxes around places and points, negative where a point is inside."""
+    gap: np.ndarray = (np.abs(places[:, None] - points) - half).max(axis=-1).min(axis=-1)
+    return gap

@@ -101,29 +101,43 @@ def format_root(first: complex, second: complex | None = None) -> str:
 
 
 def eigenvalues_table(modes: Modes, title: str) -> Group:
-    """Return the eigenvalues of a single design for reading, unstable ones in red, stable speeds marked."""
+    """Return the eigenvalues of a single design for reading, unstable ones in red, stable speeds marked.
+
+    Parameters
+    ----------
+    modes : Modes
+        Columns of one name stand together.
+    title : str
+    """
     table = _table(title)
     note = "eigenvalues in 1/s; red grows; in parentheses: the name does not describe the motion at this speed"
-    for heading in ("v (m/s)", "weave", "capsize", "castering", ""):
+    columns = {name: [i for i, other in enumerate(modes.names) if other == name] for name in modes.names}
+    for heading in ("v (m/s)", *columns, ""):
         table.add_column(Words(heading, whole=True), justify="left" if not heading else "right", no_wrap=True)
     for speed, roots, applies in zip(modes.speeds, modes.eigenvalues, modes.applies, strict=True):
-        cells = [
-            _root_cell(roots[:2], format_root(roots[0], roots[1]), bool(applies[:2].all())),
-            _root_cell(roots[2:3], format_root(roots[2]), bool(applies[2])),
-            _root_cell(roots[3:], format_root(roots[3]), bool(applies[3])),
-        ]
+        cells = [_root_cell(roots[places], bool(applies[places].all())) for places in columns.values()]
         table.add_row(f"{speed:.3f}", *cells, "stable" if (roots.real < 0).all() else "")
     return Group(table, note)
 
 
-def _root_cell(roots: np.ndarray, text: str, applies: bool) -> Words:
+def _root_cell(roots: np.ndarray, applies: bool) -> Words:
+    text = format_root(*roots[:2]) if len(roots) <= 2 else ", ".join(format_root(root) for root in roots)
     return Words(text if applies else f"({text})", "red" if (roots.real > 0).any() else "", whole=True)
 
 
 def eigenvalues_csv(modes: Modes) -> str:
-    """Return the eigenvalues of a single design as CSV: speed, then real and imaginary part of each mode."""
-    names = ["weave_1", "weave_2", "capsize", "castering"]
-    header = ["speed", *(f"{name}_{part}" for name in names for part in ("real", "imag"))]
+    """Return the eigenvalues of a single design as CSV: speed, then real and imaginary part of each mode.
+
+    Parameters
+    ----------
+    modes : Modes
+        Columns of one name are numbered.
+    """
+    names = [name.replace(" ", "_") for name in modes.names]
+    numbered = [
+        name if names.count(name) == 1 else f"{name}_{names[: i + 1].count(name)}" for i, name in enumerate(names)
+    ]
+    header = ["speed", *(f"{name}_{part}" for name in numbered for part in ("real", "imag"))]
     rows = (
         [float(speed), *(float(part) for root in roots for part in (root.real, root.imag))]
         for speed, roots in zip(modes.speeds, modes.eigenvalues, strict=True)

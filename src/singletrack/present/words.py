@@ -11,6 +11,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
     from singletrack.linear import CriticalSpeeds
+    from singletrack.linear.critical import Crossing
 
 __all__ = ["critical_speed_lines", "deviation_text", "quantity_text", "range_text", "speed_text"]
 
@@ -77,16 +78,33 @@ def critical_speed_lines(
 ) -> dict[str, str]:
     """Return critical speeds and stable ranges of a single design: what they are, and the words for it.
 
+    Where a mode gains or loses stability otherwise than bicycles do (weave gains it, capsize loses it), that is said.
+
     Parameters
     ----------
     critical : CriticalSpeeds
     deviations : mapping of "weave", "capsize" to sequences of float, optional
         Standard deviations of the speeds in m/s.
     """
+    if critical.status == "could not tell":
+        return dict.fromkeys(("weave speed", "capsize speed", "stable"), "could not tell")
     lines = {}
-    for mode, speeds in (("weave", critical.weave), ("capsize", critical.capsize)):
-        spreads = (deviations or {}).get(mode, [None] * len(speeds))
-        texts = [speed_text(speed, spread) for speed, spread in zip(speeds, spreads, strict=True)]
+    for mode, kind in (("weave", "pair"), ("capsize", "real")):
+        crossings = [crossing for crossing in critical.crossings if crossing.kind == kind]
+        spreads = (deviations or {}).get(mode, [None] * len(crossings))
+        texts = [
+            speed_text(crossing.speed, spread) + _direction(crossing, mode)
+            for crossing, spread in zip(crossings, spreads, strict=True)
+        ]
         lines[f"{mode} speed"] = ", ".join(texts) or "never"
     lines["stable"] = ", ".join(range_text(*bounds) for bounds in critical.stable_ranges) or "never"
     return lines
+
+
+def _direction(crossing: Crossing, mode: str) -> str:
+    """Return what a crossing does where it is not what every bicycle does: weave gains stability, capsize loses it."""
+    whose = "" if crossing.mode == mode else f"{crossing.mode} "
+    usual = "gained" if mode == "weave" else "lost"
+    if not whose and crossing.direction == usual:
+        return ""
+    return f" ({whose}stability {crossing.direction})"

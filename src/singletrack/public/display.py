@@ -21,6 +21,12 @@ __all__ = ["lines_of_model", "table_of_model"]
 def lines_of_model(model: LinearModel) -> str:
     """Return a line that says what a model is of and, of a single design, a line for each matrix.
 
+    Parameters
+    ----------
+    model : LinearModel
+
+    Examples
+    --------
     >>> from singletrack import coefficients, load_bicycle
     >>> print(lines_of_model(coefficients(load_bicycle("benchmark"))))
     <CoefficientMatrices of lean, steer>
@@ -40,7 +46,12 @@ def lines_of_model(model: LinearModel) -> str:
 
 
 def table_of_model(model: LinearModel) -> str:
-    """Return an HTML table of a single design's matrices; of a batch, what it is of."""
+    """Return an HTML table of a single design's matrices; of a batch, what it is of.
+
+    Parameters
+    ----------
+    model : LinearModel
+    """
     return table(_rows(model), ["", *model.coordinates] if _is_single(model) else [], f"Model of {_what(model)}")
 
 

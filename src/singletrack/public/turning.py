@@ -149,7 +149,7 @@ def turn(
     >>> found.names
     ('weave', 'weave', 'capsize', 'castering', 'speed')
     >>> round(found.radius, 1), round(found.hand_torque, 2)
-    (18.2, -0.39)
+    (17.9, -0.29)
     """
     require_records(bicycle, rider)
     model = bicycle_model(bicycle, rider, options)

@@ -36,7 +36,7 @@ class CheckedStore(LocalStore):
         self._sums, self._complete = sums, complete
 
     def with_read_only(self, read_only: bool = False) -> CheckedStore:
-        """Return the store itself; there is no other way to open it."""
+        """Return the store itself, for ``read_only``; there is no other way to open it."""
         if not read_only:
             raise InputError(f"{self.root}: is opened to be read")
         return self

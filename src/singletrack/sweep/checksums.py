@@ -53,7 +53,7 @@ def read_checksums(store: Path) -> dict[str, str]:
 
 
 def is_intact(path: Path, checksum: str) -> bool:
-    """Return whether a file is there and has a checksum."""
+    """Return whether the file at a path is there and has a checksum (SHA-256 in hexadecimal)."""
     try:
         with path.open("rb") as file:
             return hashlib.file_digest(file, "sha256").hexdigest() == checksum
@@ -62,7 +62,7 @@ def is_intact(path: Path, checksum: str) -> bool:
 
 
 def damages(store: Path, sums: Mapping[str, str]) -> list[str]:
-    """Return what is wrong with the files of a store, a line for each: missing, changed, or not in the list."""
+    """Return what is wrong with the files of a store, by file: missing, changed, or not in the list ``sums``."""
     found = []
     for name, value in sums.items():
         if not (store / name).is_file():

@@ -22,10 +22,11 @@ __all__ = ["Task", "chunk_size", "compute_chunk", "layout_of"]
 
 #: Eigenvalue problems of a chunk (16 MB of eigenvalues), and designs at most (their segments take more room).
 _PROBLEMS, _DESIGNS = 2**18, 4096
+_CROWDED = "there are more critical speeds than a sweep has room for"
 
 
 def chunk_size(speeds: int) -> int:
-    """Return the number of designs of a chunk.
+    """Return the number of designs of a chunk of a sweep over so many speeds.
 
     >>> chunk_size(101), chunk_size(1)
     (2595, 4096)
@@ -58,14 +59,23 @@ def compute_chunk(task: Task, rows: np.ndarray) -> tuple[dict[str, np.ndarray], 
 
     Of those, the designs (k,) that are faulty are given as a mask for each kind of fault: its text with names for the
     values, which differ from design to design. All results of a faulty design are NaN, and its status says so.
+
+    Parameters
+    ----------
+    task : Task
+    rows : array, shape (k, parameters)
+        The values of the designs, SI units.
     """
     use_compiled()
     model = _model(task, rows)
-    arrays = _results(model, task, len(rows))
+    arrays, crowded = _results(model, task, len(rows))
     faults: dict[str, np.ndarray] = {}
     for fault in model.faults:
         faults[fault.kind] = faults.get(fault.kind, np.False_) | np.broadcast_to(np.asarray(fault.bad), (len(rows),))
     faulty = ~np.broadcast_to(model.valid, (len(rows),))
+    if (crowded & ~faulty).any():
+        faults[_CROWDED] = crowded & ~faulty
+    faulty = faulty | crowded
     for name, values in arrays.items():
         values[faulty] = CODES[name].index("faulty") if name in CODES else np.nan
     return arrays, faults
@@ -81,8 +91,10 @@ def _model(task: Task, rows: np.ndarray) -> LinearModel:
         return coefficients(bicycle, rider, task.options)
 
 
-def _results(model: LinearModel, task: Task, count: int) -> dict[str, np.ndarray]:
+def _results(model: LinearModel, task: Task, count: int) -> tuple[dict[str, np.ndarray], np.ndarray]:
+    """Return arrays by name, a row for each design, and which designs (k,) have more crossings than there is room."""
     arrays: dict[str, np.ndarray] = {"status": np.full(count, CODES["status"].index("computed"), dtype=np.int8)}
+    told = np.ones(count, dtype=bool)
 
     def keep(name: str, values: np.ndarray, single: int) -> None:
         """Keep results whose part for one design has ``single`` dimensions."""
@@ -97,15 +109,31 @@ def _results(model: LinearModel, task: Task, count: int) -> dict[str, np.ndarray
             keep("eigenvalues", linear.eigenvalues(model, task.speeds), 2)
         if {"critical_speeds", "stable_ranges"} & set(task.keep):
             critical = linear.critical_speeds(model)
+            told = np.broadcast_to(critical.told, (count,))
             if "critical_speeds" in task.keep:
                 keep("weave_speeds", critical.weave_speeds, 1)
                 keep("capsize_speeds", critical.capsize_speeds, 1)
             if "stable_ranges" in task.keep:
                 keep("stable_ranges", critical.ranges, 2)
-    for name in ("weave_speeds", "capsize_speeds", "stable_ranges"):
+    crowded = np.zeros(count, dtype=bool)
+    most = 2 if model.freedoms == 2 else 4 * model.freedoms
+    for name, width in (("weave_speeds", most), ("capsize_speeds", most), ("stable_ranges", most + 1)):
         if name in arrays:
-            arrays[f"{name.partition('_')[0]}_status"] = status_of(arrays[name])
-    return arrays
+            arrays[f"{name.partition('_')[0]}_status"] = status_of(arrays[name], told)
+            arrays[name], more = _of_width(arrays[name], width)
+            crowded |= more
+    return arrays, crowded
+
+
+def _of_width(values: np.ndarray, width: int) -> tuple[np.ndarray, np.ndarray]:
+    """Return speeds (k, width, ...), NaN where there are fewer, and the designs (k,) that have more.
+
+    How many columns critical speeds have depends on the designs that are computed together: not so in a store.
+    """
+    missing = max(0, width - values.shape[1])
+    padded = np.pad(values, ((0, 0), (0, missing), *((0, 0) for _ in values.shape[2:])), constant_values=np.nan)
+    more = np.isfinite(padded[:, width:]).reshape(len(values), -1).any(axis=1)
+    return np.ascontiguousarray(padded[:, :width]), more
 
 
 def layout_of(study: Study) -> Layout:

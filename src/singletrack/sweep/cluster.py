@@ -42,6 +42,14 @@ def _distributed() -> Any:
 def do_on_cluster(order: Order, work: Iterator[Chunk], address: str) -> Iterator[Entry]:
     """Yield the chunks as they are done, in any order.
 
+    Parameters
+    ----------
+    order : Order
+    work : iterator of Chunk
+        What is to be done.
+    address : str
+        Of the scheduler, ``tls://HOST:PORT`` or ``tcp://HOST:PORT``.
+
     Raises
     ------
     InputError

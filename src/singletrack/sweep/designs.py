@@ -76,7 +76,7 @@ class Designs:
     method: ClassVar[str] = ""
 
     def rows(self, start: int, stop: int) -> np.ndarray:
-        """Return the values (stop - start, parameters) of some designs, SI units."""
+        """Return the values, shape (stop - start, parameters), of the designs from start to before stop, SI units."""
         quantiles = self._quantiles(start, stop)
         return np.stack([v.at(quantiles[:, i]) for i, v in enumerate(self.variations)], axis=-1)
 

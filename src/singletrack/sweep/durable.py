@@ -22,7 +22,7 @@ TEMPORARY = ".tmp"
 
 
 def checksum(data: bytes | memoryview) -> str:
-    """Return the SHA-256 of some bytes, in hexadecimal, as ``sha256sum`` prints it."""
+    """Return the SHA-256 of data, in hexadecimal, as ``sha256sum`` prints it."""
     return hashlib.sha256(data).hexdigest()
 
 
@@ -67,7 +67,7 @@ def _write_all(handle: int, data: bytes | memoryview) -> None:
 
 
 def append_line(path: Path, line: str) -> None:
-    """Add a line to a file and sync it; a line that was cut short before stays a line of its own."""
+    """Add a line to the file at a path and sync it; one that was cut short before stays a line of its own."""
     handle = os.open(path, os.O_RDWR | os.O_APPEND | os.O_CREAT | getattr(os, "O_BINARY", 0), 0o666)
     try:
         end = os.lseek(handle, 0, os.SEEK_END)
@@ -90,14 +90,14 @@ def sync_folder(folder: Path) -> None:
 
 
 def move_folder(source: Path, target: Path) -> None:
-    """Move a folder within a file system in one step, and sync both folders that it is moved between."""
+    """Move a folder from source to target in one step, on one file system, and sync both folders that hold these."""
     os.rename(source, target)
     sync_folder(target.parent)
     sync_folder(source.parent)
 
 
 def check_folder(folder: Path) -> None:
-    """Write, move and remove a small file, to find out now what would fail later.
+    """Write, move and remove a small file in a folder, to find out now what would fail later.
 
     Raises
     ------

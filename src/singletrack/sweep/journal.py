@@ -69,19 +69,19 @@ class Journal:
 
 
 def write_header(path: Path, fingerprint: str, journal: Journal) -> None:
-    """Begin a journal: all but its entries."""
+    """Begin a journal at a path: the fingerprint of the study, and all of the journal but its entries."""
     header = {"described": journal.described, "columns": list(journal.columns), "files": journal.files}
     append_line(path, _signed({"study": fingerprint, "format": FORMAT, **header}))
 
 
 def write_entry(path: Path, entry: Entry) -> None:
-    """Note that a chunk is on disk."""
+    """Note in the journal at a path that a chunk is on disk: its entry."""
     packed = {kind: base64.b64encode(np.packbits(bad).tobytes()).decode() for kind, bad in entry.faults.items()}
     append_line(path, _signed({"start": entry.start, "sums": entry.sums, "faults": packed}))
 
 
 def read_journal(path: Path) -> Journal | None:
-    """Return what a journal says, or None if there is none, or only the beginning of its first line.
+    """Return what the journal at a path says, or None if there is none, or only the beginning of its first line.
 
     Raises
     ------

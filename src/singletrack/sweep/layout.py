@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 __all__ = ["ARRAYS", "Column", "Layout", "encode", "metadata", "status_of"]
 
 _STATUS = ("not_computed", "computed", "faulty")
-_ANSWER = ("not_computed", "found", "never", "faulty")
+_ANSWER = ("not_computed", "found", "never", "faulty", "could_not_tell")
 
 #: For each array: dimensions after "design", unit and meaning.
 ARRAYS: dict[str, tuple[tuple[str, ...], str, str]] = {
@@ -42,10 +42,19 @@ ARRAYS: dict[str, tuple[tuple[str, ...], str, str]] = {
 CODES = {"status": _STATUS, "weave_status": _ANSWER, "capsize_status": _ANSWER, "stable_status": _ANSWER}
 
 
-def status_of(values: np.ndarray) -> np.ndarray:
-    """Return for speeds (k, ...) of sound designs whether there are any: 1 found, 2 never, shape (k,)."""
+def status_of(values: np.ndarray, told: np.ndarray) -> np.ndarray:
+    """Return codes (k,) for speeds of sound designs: 1 found, 2 never, 4 could not tell.
+
+    Parameters
+    ----------
+    values : array, shape (k, ...)
+        In m/s, NaN where there are fewer.
+    told : bool array, shape (k,)
+        Whether anything could be told.
+    """
     found = np.isfinite(values).reshape(len(values), -1).any(axis=1)
-    return np.where(found, np.int8(_ANSWER.index("found")), np.int8(_ANSWER.index("never")))
+    codes = np.where(found, _ANSWER.index("found"), _ANSWER.index("never"))
+    return np.where(told, codes, _ANSWER.index("could_not_tell")).astype(np.int8)
 
 
 @dataclass(frozen=True)
@@ -72,7 +81,7 @@ class Column:
 
     @classmethod
     def of_results(cls, name: str, row: np.ndarray) -> Column:
-        """Return the column of an array of results, from one row of it."""
+        """Return the column of an array of results by name, from one row of it, shape (...) as for one design."""
         dimensions, unit, meaning = ARRAYS[name]
         attributes: dict[str, Any] = {"units": unit, "long_name": meaning}
         if name in CODES:
@@ -98,7 +107,7 @@ class Layout:
 
 
 def metadata(layout: Layout, attributes: Mapping[str, Any]) -> dict[str, bytes]:
-    """Return the files of a store without its chunks, by name: descriptions, labels, and all of it in one place."""
+    """Return the files of a store of a layout without its chunks, by name: descriptions, attributes, labels."""
     import zarr  # lazy: optional
     from zarr.storage import MemoryStore
 
@@ -130,7 +139,17 @@ def _array(group: Any, layout: Layout, column: Column) -> None:
 
 
 def encode(described: Mapping[str, bytes], start: int, arrays: Mapping[str, np.ndarray]) -> dict[str, memoryview]:
-    """Return the files of one chunk, by name, from its arrays (k, ...) and the files that describe the store."""
+    """Return the files of one chunk, by name.
+
+    Parameters
+    ----------
+    described : mapping of str to bytes
+        The files that describe the store, of :func:`metadata`.
+    start : int
+        The first design of the chunk.
+    arrays : mapping of str to array, shape (k, ...)
+        A row for each design.
+    """
     import zarr
     from zarr.core.buffer import default_buffer_prototype
     from zarr.storage import MemoryStore

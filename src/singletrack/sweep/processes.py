@@ -37,6 +37,14 @@ def available_cores() -> int:
 def do_in_processes(order: Order, work: Iterator[Chunk], workers: int) -> Iterator[Entry]:
     """Yield the chunks as they are done, in any order; a process that dies is replaced.
 
+    Parameters
+    ----------
+    order : Order
+    work : iterator of Chunk
+        What is to be done.
+    workers : int
+        Processes.
+
     Raises
     ------
     SingletrackError

@@ -58,12 +58,12 @@ def _plain(value: Any) -> Any:
 
 
 def fingerprint_of(described: dict[str, Any]) -> str:
-    """Return the SHA-256 of plain values; orders that matter are lists in them."""
+    """Return the SHA-256 of what is described in plain values; orders that matter are lists in them."""
     return hashlib.sha256(json.dumps(described, sort_keys=True).encode()).hexdigest()
 
 
 def differences(old: dict[str, Any], new: dict[str, Any]) -> str:
-    """Return in words what has changed between two descriptions: where, what was there, what is there now.
+    """Return in words what has changed between two descriptions, old and new: where, what was there, what is there now.
 
     >>> differences({"bicycle": {"trail": 0.06}, "keep": ["M"]}, {"bicycle": {"trail": 0.07}, "keep": ["M"]})
     'bicycle.trail was 0.06, is 0.07'

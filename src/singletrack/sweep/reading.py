@@ -50,8 +50,9 @@ def open_sweep(path: str | Path, *, unfinished: bool = False) -> xarray.Dataset:
 
     Designs are on the dimension ``design``, with the parameters that vary as coordinates; designs of a grid have a
     dimension for each parameter instead. ``status`` says of each design whether it is computed (1), faulty (2) or not
-    computed (0); ``weave_status`` and its like whether a speed was found (1), there is none (2), or the design is
-    faulty (3) or not computed (0). The codes stand in the attributes ``flag_values`` and ``flag_meanings``.
+    computed (0); ``weave_status`` and its like whether a speed was found (1), there is none (2), the design is faulty
+    (3) or not computed (0), or nothing can be told (4). The codes stand in the attributes ``flag_values`` and
+    ``flag_meanings``.
 
     Parameters
     ----------
@@ -137,7 +138,8 @@ def _refuse_unfinished(path: Path) -> None:
 def designs_to_dicts(dataset: xarray.Dataset, start: int = 0, stop: int | None = None) -> list[dict[str, Any]]:
     """Return designs as plain values for JSON: parameters, status, and what is known of the critical speeds.
 
-    An answer is a list; it is empty for "never" and None where there is none, the design being faulty or not computed.
+    An answer is a list; it is empty for "never" and None where there is none, the design being faulty or not computed,
+    or because nothing could be told.
 
     Parameters
     ----------
@@ -166,7 +168,7 @@ def designs_to_dicts(dataset: xarray.Dataset, start: int = 0, stop: int | None =
 
 
 def _answer(values: np.ndarray, status: str) -> list[Any] | None:
-    if status in {"not_computed", "faulty"}:
+    if status not in {"found", "never"}:
         return None
     if values.ndim == 1:
         return [float(value) for value in values if np.isfinite(value)]

@@ -53,7 +53,7 @@ class Summary:
 
 
 def require_extra(scheduler: str | None = None) -> None:
-    """Raise InputError if what sweeps need besides is not installed."""
+    """Raise InputError if what sweeps, or sweeps with a scheduler, need besides is not installed."""
     for name, who, extra in (("zarr", "sweeps need", "sweep"), ("distributed", "--scheduler needs", "cluster")):
         if find_spec(name) is None and (scheduler is not None or extra == "sweep"):
             raise InputError(f"{who} {name}: pip install 'singletrack[{extra}]'")

@@ -46,7 +46,7 @@ JOURNAL, DATA, LOCK = "journal.jsonl", "data.zarr", "lock"
 
 
 def partial_of(output: Path) -> Path:
-    """Return the folder of the unfinished sweep."""
+    """Return the folder of the unfinished sweep of an output."""
     return output.with_name(output.name + ".partial")
 
 
@@ -129,7 +129,7 @@ class Store:
         return all(is_intact(self.data / name, value) for name, value in entry.sums.items())
 
     def record(self, entry: Entry) -> None:
-        """Note that a chunk is on disk."""
+        """Note that a chunk is on disk: its entry."""
         journal.write_entry(self.journal, entry)
         self.entries[entry.start] = entry
 
@@ -235,7 +235,7 @@ def _refuse_too_large(store: Store) -> None:
 
 
 def in_words(size: float) -> str:
-    """Return a number of bytes with a fitting unit.
+    """Return a size in bytes with a fitting unit.
 
     >>> in_words(999), in_words(12_345_678), in_words(3e15)
     ('999 bytes', '12.3 MB', '3000 TB')

@@ -5,7 +5,6 @@ The file is checked in full before anything is computed; all that is wrong is sa
 
 from __future__ import annotations
 
-import tomllib
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Any, Literal
@@ -17,6 +16,7 @@ from singletrack.errors import InputError, unknown_name
 from singletrack.files.source import read_text
 from singletrack.files.speeds import parse_speeds
 from singletrack.files.toml_keys import place_of
+from singletrack.files.toml_text import parse_toml
 from singletrack.library import load_bicycle, load_rider
 from singletrack.parameters import Bicycle, Rider
 from singletrack.posture import Options
@@ -137,10 +137,7 @@ def load_study(path: str | Path) -> Study:
     if not there:
         raise InputError(f"{path}: there is no such study file")
     text = read_text(path)
-    try:
-        document = tomllib.loads(text)
-    except (ValueError, RecursionError) as error:  # not TOML, or a number of thousands of digits
-        raise InputError(f"{path}: is not valid TOML: {str(error)[:200] or 'nested too deeply'}") from None
+    document = parse_toml(text, str(path))
     try:
         checked = _StudyFile.model_validate(document)
     except ValidationError as error:

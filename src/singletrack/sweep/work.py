@@ -38,7 +38,7 @@ class Chunk:
 
 
 def do(order: Order, chunk: Chunk) -> Entry:
-    """Compute a chunk and write it; when this returns, it is on the disk.
+    """Compute a chunk as an order says and write it; when this returns, it is on the disk.
 
     Raises
     ------

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from singletrack import load_bicycle, spacar
+from singletrack.closed_form import Tyre, tyre_model
 from singletrack.multibody import coefficients
 
 
@@ -106,3 +107,20 @@ def test_rolling_is_kept_while_it_rides(robot):
             np.testing.assert_allclose(model.by_element(motion.state.e)[wheel], 0.0, atol=1e-9)
             np.testing.assert_allclose(model.by_element(motion.rates)[wheel], 0.0, atol=1e-9)
     assert model.by_element(motions[-1].state.e)[11][0] > 2 * np.pi  # the wheel's angle goes on beyond a turn
+
+
+def test_tyres_without_delay_are_dampers_of_the_slip():
+    """Two derivations of a bicycle that slips: nodes and elements with released slip, and the closed form."""
+    bicycle, speed, cornering = load_bicycle("benchmark"), 5.0, 8e3
+    rear, front = float(bicycle.rear_wheel_radius), float(bicycle.front_wheel_radius)
+    text = (
+        bicycle_file(bicycle).replace("kine 13 1", "dyne 13 1\nrlse 10 6\nrlse 12 6").replace("kinx 14 2", "dynx 14 2")
+    )
+    # Slip is the velocity times the radius.
+    dampers = f"edamp 12 0 {cornering / speed / rear**2!r}\nedamp 10 0 {cornering / speed / front**2!r}\ngravity"
+    model = spacar.read_text(text.replace("gravity", dampers))
+    small = model.linearise(model.motion(model.state(ed={(11, 1): speed / rear})))
+    values = small.eigenvalues()
+    found = np.sort_complex(values[abs(values) > 1e-3])
+    tyre = Tyre(cornering)
+    np.testing.assert_allclose(found, tyre_model(bicycle, tyre, tyre).eigenvalues(speed)[0], rtol=1e-7)

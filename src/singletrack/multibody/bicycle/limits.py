@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from singletrack.multibody.engine.limits import Limit, Reach
+from singletrack.parameters.flexible import FORK_BENDING, FRAME_TORSION
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -35,7 +36,7 @@ def riding_limits(
         Names of the independent speeds, the rider's free joints among them.
     """
     limits: list[Limit | Reach] = [Limit("lean", -FALLEN, FALLEN, "fell to the left", "fell to the right")]
-    bicycle = {"frame", "rear wheel", "steer", "front wheel"}
+    bicycle = {"frame", "rear wheel", "steer", "front wheel", FRAME_TORSION, FORK_BENDING}
     own = [name for joint in joints if joint.name not in bicycle for name in joint.coordinates]
     determined = tuple(name for name in own if name not in independent)
     if closures and sum(len(closure.rows) for closure in closures) == len(determined):

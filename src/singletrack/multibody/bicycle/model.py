@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from singletrack.body.oddities import warn_of_oddities
 from singletrack.errors import InputError
 from singletrack.mechanics import combine
 from singletrack.multibody.bicycle.balance import holding_inputs
@@ -26,15 +27,17 @@ from singletrack.multibody.engine.elements import GROUND, Body, free, revolute
 from singletrack.multibody.engine.model import Model, build
 from singletrack.multibody.engine.system import System
 from singletrack.parameters.bodies import bicycle_bodies
+from singletrack.parameters.flexible import FORK_BENDING, FRAME_TORSION, soft_hinges
 from singletrack.posture import STEER, Options, input_name, require_records, seat
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from singletrack.mechanics import Body as Solid
-    from singletrack.multibody.engine.elements import Scalar
+    from singletrack.multibody.engine.elements import Joint, Scalar
     from singletrack.multibody.engine.model import State
     from singletrack.parameters import Bicycle, Rider
+    from singletrack.parameters.flexible import SoftHinge
     from singletrack.posture import Posture
 
 __all__ = ["bicycle_model", "ride"]
@@ -83,25 +86,33 @@ def _elements(bicycle: Bicycle, posture: Posture | None, options: Options, numbe
     hubs: dict[str, tuple[Scalar, ...]] = {
         end: numbers.vector(f"{end} hub", solids[f"{end} wheel"].centre) for end in ("rear", "front")
     }
+    soft = {hinge.name: hinge for hinge in soft_hinges(bicycle)}
+    head, fork = (
+        ("head" if FRAME_TORSION in soft else "rear frame"),
+        ("fork" if FORK_BENDING in soft else "front frame"),
+    )
     joints = [
         free("frame", GROUND, "rear frame", coordinates=("x", "y", "z", "yaw", "lean", "pitch")),
         revolute("rear wheel", "rear frame", "rear wheel", hubs["rear"], (0, 1, 0)),
+        *(_soft(numbers, soft[FRAME_TORSION], "rear frame", head) if FRAME_TORSION in soft else ()),
         revolute(
             "steer",
-            "rear frame",
+            head,
             "front frame",
             foot,
             axis,
             stiffness=numbers.number("steer stiffness", options.springs.get(STEER, 0.0)),
             damping=numbers.number("steer damping", options.dampers.get(STEER, 0.0)),
         ),
-        revolute("front wheel", "front frame", "front wheel", hubs["front"], (0, 1, 0)),
+        *(_soft(numbers, soft[FORK_BENDING], "front frame", fork) if FORK_BENDING in soft else ()),
+        revolute("front wheel", fork, "front wheel", hubs["front"], (0, 1, 0)),
     ]
+    bodies += [Body(name) for name in (head, fork) if name not in {"rear frame", "front frame"}]
     wheels = [
         Wheel(f"{end} wheel", f"{end} wheel", hub, numbers.always(f"{end} radius", -solids[f"{end} wheel"].centre[2]))
         for end, hub in hubs.items()
     ]
-    freedoms = () if posture is None else posture.freedoms
+    freedoms = (*(() if posture is None else posture.freedoms), *soft)
     inputs = [
         CoordinateForce("lean torque", "lean"),
         CoordinateForce("steer torque", "steer"),
@@ -116,6 +127,13 @@ def _elements(bicycle: Bicycle, posture: Posture | None, options: Options, numbe
         "wheels": wheels,
         "inputs": inputs,
     }
+
+
+def _soft(numbers: Numbers, hinge: SoftHinge, parent: str, child: str) -> tuple[Joint]:
+    """Return the hinge of a soft frame or fork."""
+    point, axis = (numbers.vector(f"{hinge.name} {what}", getattr(hinge, what)) for what in ("point", "axis"))
+    law = {what: numbers.always(f"{hinge.name} {what}", getattr(hinge, what)) for what in ("stiffness", "damping")}
+    return (revolute(hinge.name, parent, child, point, axis, **law),)
 
 
 def bicycle_model(bicycle: Bicycle, rider: Rider | None = None, options: Options | str = "rigid") -> Model:
@@ -146,6 +164,7 @@ def bicycle_model(bicycle: Bicycle, rider: Rider | None = None, options: Options
     require_records(bicycle, rider)
     _refuse_batches(bicycle, rider)
     _refuse_skates(bicycle)
+    warn_of_oddities(bicycle, rider)
     options = Options.of(options)
     if rider is None:
         options.require_rider()
@@ -153,7 +172,7 @@ def bicycle_model(bicycle: Bicycle, rider: Rider | None = None, options: Options
     numbers = Numbers()
     elements = _elements(bicycle, seated, options, numbers)
     freedoms = () if seated is None else seated.freedoms
-    independent = ("lean", "steer", *freedoms, "rear wheel")
+    independent = ("lean", "steer", *freedoms, *(hinge.name for hinge in soft_hinges(bicycle)), "rear wheel")
     system = System(
         **elements,
         gravity=float(bicycle.gravity),

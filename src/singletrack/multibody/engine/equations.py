@@ -64,6 +64,8 @@ class Equations:
     contacts
         (q, p) -> contact points (3, wheels), headings (3, wheels), how upright the wheels are (1, wheels): one upright,
         zero where the axle is vertical.
+    poses
+        (q, p) -> translations (3, bodies) and rotations (3, 3 bodies): a drawn point x of a body is at t + R x.
     lengths
         (q, p) -> lengths of the springs that need a direction, then of the rods of fixed length.
     loop_wrenches
@@ -80,6 +82,7 @@ class Equations:
     input_matrix: ca.Function
     energy: ca.Function
     contacts: ca.Function
+    poses: ca.Function
     lengths: ca.Function
     loop_wrenches: ca.Function
     sensors: ca.Function
@@ -131,6 +134,12 @@ def _sensor_outputs(system: System, frames: dict[str, Frame]) -> SX:
 
 def _matrix(columns: list[SX]) -> SX:
     return ca.horzcat(ca.SX(3, 0), *columns)
+
+
+def _poses(system: System, frames: dict[str, Frame]) -> tuple[SX, SX]:
+    placed = [frames[body.name] for body in system.bodies]
+    translations = [frame.position - frame.rotation @ frame.anchor for frame in placed]
+    return _matrix(translations), ca.horzcat(ca.SX(3, 0), *(frame.rotation for frame in placed))
 
 
 def _lengths(system: System, frames: dict[str, Frame]) -> SX:
@@ -194,6 +203,7 @@ def derive(system: System) -> Equations:
             (kinetic_energy(system, s.frames), potential_energy(system, s.frames, s.gravity, s.q)),
         ),
         "contacts": ((s.q,), (points, headings, levels)),
+        "poses": ((s.q,), _poses(system, s.frames)),
         "lengths": ((s.q,), (_lengths(system, s.frames),)),
         "loop_wrenches": ((s.q, s.m), _loop_wrenches(system, s)),
         "sensors": ((s.q, s.u), (_sensor_outputs(system, s.frames),)),

@@ -87,6 +87,8 @@ def springs(
         kind = KINDS[d.elements[number].kind]
         i = e_index[number, 1]
         if kind.mass is None:
+            # Of a wheel, the constants are those of its slips, which come last.
+            i += len(kind.components) - len(values)
             for k, value in enumerate(values):
                 matrix[i + k, i + k] = value
             continue

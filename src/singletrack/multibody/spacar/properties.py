@@ -65,9 +65,11 @@ def constants(name: str) -> Callable[[Reader], None]:
         d = reader.description
         number = reader.element()
         kind = KINDS[d.elements[number].kind]
-        if kind.slip is not None or kind.name == "PINBODY":
+        slips = len(kind.components) - kind.holonomic
+        if kind.name == "PINBODY" or (slips and name == "stiffness"):
             raise reader.refuse(f"element {number} is a {kind.name}, which is rigid")
-        most = {"beam3": 4, "beam2": 2}.get(kind.mass or "", len(kind.components))
+        # Of a wheel, only slip has rates that a damper can work on: a tyre at low frequency.
+        most = slips or {"beam3": 4, "beam2": 2}.get(kind.mass or "", len(kind.components))
         reader.count(2, 1 + most, f"an element and up to {most} constants of a {kind.name}")
         values = reader.not_negative(reader.numbers[1:], name)
         getattr(d, name)[number] = values + (0.0,) * (most - len(values))
