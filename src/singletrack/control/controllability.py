@@ -1,8 +1,8 @@
 """Speeds at which an input loses a mode, found as roots.
 
 With the state matrix A(v) of degree two in the speed and an input b, a mode λ is lost where (A - λ, b) has no full
-rank (Popov, Belevitch and Hautus): then no feedback b kᵀ moves λ. So A(v) and A(v) + b kᵀ share an eigenvalue there for every
-k, and their Kronecker sum
+rank (Popov, Belevitch and Hautus): then no feedback b kᵀ moves λ. So A(v) and A(v) + b kᵀ share an eigenvalue there for
+every k, and their Kronecker sum
 
     A(v) ⊗ 1 - 1 ⊗ (A(v) + b kᵀ)ᵀ
 

@@ -155,10 +155,9 @@ def least_energy(A: np.ndarray, b: np.ndarray, start: np.ndarray) -> float:
     >>> least_energy(np.array([[1.0]]), np.array([[1.0]]), np.array([3.0]))
     18.0
     """
-    roots = np.linalg.eigvals(A)
-    if (roots.real < 0).all():
-        return 0.0
     _, A_part, both = invariant_part(A, np.column_stack([b, start]), stable=False)
+    if not A_part.size:
+        return 0.0
     b_part, state = both[:, :-1], both[:, -1]
     P = scipy.linalg.solve_continuous_lyapunov(-A_part, -b_part @ b_part.T)
     least = np.linalg.eigvalsh((P + P.T) / 2)[0]

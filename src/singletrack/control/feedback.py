@@ -29,8 +29,9 @@ def closed_loop(model: LinearModel, gains: Gains) -> LinearModel:
     ----------
     model : LinearModel
     gains : mapping of (str, str) to float or sequence of float
-        From a signal (a coordinate such as ``lean``, or its rate, ``lean rate``) to an input (``steer torque``), in N m/rad
-        and N m s/rad. A sequence holds the coefficients of 1, v and v²: of a rate at most v, of a coordinate v⁰ and v².
+        By (input, signal), such as ``("steer torque", "lean rate")``: signals are coordinates and their rates, gains in
+        N m/rad and N m s/rad. A sequence holds the coefficients of 1, v and v²: of a rate at most v, of a coordinate v⁰
+        and v².
 
     Raises
     ------

@@ -1,8 +1,8 @@
 """From recorded rates to an eigenvalue: a growing or decaying oscillation, with honest standard deviations.
 
 The model of a record is y = offset + exp(σ t) (a cos ω t + b sin ω t), fitted by least squares, as is usual for weave
-(Kooijman, Schwab and Meijaard 2008). What remains is rarely white: neighbouring residuals are alike. They are taken for an
-autoregressive process of the order that they call for, and the standard deviations follow from its covariance Σ,
+(Kooijman, Schwab and Meijaard 2008). What remains is rarely white: neighbouring residuals are alike. They are taken for
+an autoregressive process of the order that they call for, and the standard deviations follow from its covariance Σ,
 (JᵀJ)⁻¹ Jᵀ Σ J (JᵀJ)⁻¹, with the variance that the fit itself has taken out of the residuals put back.
 """
 
@@ -30,7 +30,7 @@ __all__ = ["IdentifiedMode", "combine_modes", "identify_mode"]
 _FEWEST = 30
 _WELL = 0.9
 _HALF = 0.5
-_HIGHEST_ORDER = 1
+_HIGHEST_ORDER = 2
 #: Largest size of a root of the autoregression: disturbances that last longer than the record cannot be told from it.
 _NEARLY_ENDLESS = 0.98
 
@@ -91,8 +91,8 @@ def identify_mode(time: Array, signal: Array, start: float | None = None, where:
     signal : array, shape (n,)
         A rate or an angle, any unit.
     start : float, optional
-        Time in s from which on the record is used; by default the earliest from which one oscillation explains 90 % of the
-        record's variance (what a push leaves besides it has died out by then), at most half of the record is left out.
+        Time in s from which on the record is used; by default the earliest from which one oscillation explains 90 % of
+        its variance (what a push leaves besides it has died out by then); at most half of the record is left out.
     where : str
         For messages.
 
@@ -121,7 +121,7 @@ def identify_mode(time: Array, signal: Array, start: float | None = None, where:
 
 
 def _candidates(t: np.ndarray, y: np.ndarray, where: str) -> list[int]:
-    """Return the places at which the record may start: those that leave half of it, the first that holds alone if it does."""
+    """Return the places at which the record may start: the first alone if it does, else all that leave half of it."""
     whole = _fit(t, y, 0, where, refuse=False)
     if whole.explained >= _WELL:
         return [0]
@@ -137,7 +137,9 @@ def _checked(time: Array, signal: Array, where: str) -> tuple[np.ndarray, np.nda
         raise InputError(f"{where}: has values that are not finite, must have none")
     steps = np.diff(t)
     if not (steps.min() > 0 and steps.max() <= 1.5 * np.median(steps)):
-        raise InputError(f"{where}: times must ascend evenly; a step of {steps.max():g} s stands beside {np.median(steps):g} s")
+        raise InputError(
+            f"{where}: times must ascend evenly; a step of {steps.max():g} s stands beside {np.median(steps):g} s"
+        )
     if not np.std(y) > 1e-9 * (1 + np.abs(y).max()):
         raise InputError(f"{where}: the signal does not change")
     return t, y
@@ -174,7 +176,8 @@ def _guess(t: np.ndarray, y: np.ndarray) -> tuple[float, float]:
     rates = np.linspace(-8.0, 4.0, 13) / span
     frequencies = 2 * math.pi * np.geomspace(0.5 / span, 0.2 * (len(t) - 1) / span, 40)
     best = min(
-        ((float(np.sum((y - _best(t, y, s, w)) ** 2)), s, w) for s in rates for w in frequencies), key=lambda item: item[0]
+        ((float(np.sum((y - _best(t, y, s, w)) ** 2)), s, w) for s in rates for w in frequencies),
+        key=lambda item: item[0],
     )
     return best[1], best[2]
 
@@ -183,7 +186,8 @@ def _least_squares(
     t: np.ndarray, y: np.ndarray, guess: tuple[float, float], where: str
 ) -> tuple[tuple[float, float], np.ndarray]:
     def residuals(x: np.ndarray) -> np.ndarray:
-        return y - _best(t, y, *x)
+        left: np.ndarray = y - _best(t, y, *x)
+        return left
 
     span = float(t[-1] - t[0])
     bounds = ([-60 / span, 0.3 / span], [30 / span, math.pi * (len(t) - 1) / span])
@@ -199,7 +203,9 @@ def _autoregression(left: np.ndarray) -> np.ndarray:
     n = len(left)
     best, chosen = math.inf, np.zeros(0)
     for p in range(_HIGHEST_ORDER + 1):
-        rows = np.stack([left[_HIGHEST_ORDER - k - 1 : n - k - 1] for k in range(p)], axis=-1) if p else np.zeros((n, 0))
+        rows = (
+            np.stack([left[_HIGHEST_ORDER - k - 1 : n - k - 1] for k in range(p)], axis=-1) if p else np.zeros((n, 0))
+        )
         wanted = left[_HIGHEST_ORDER:]
         rows = rows[: len(wanted)]
         coefficients = np.linalg.lstsq(rows, wanted, rcond=None)[0] if p else np.zeros(0)
@@ -225,9 +231,7 @@ def _correlations(coefficients: np.ndarray, count: int) -> np.ndarray:
     return found
 
 
-def _covariance(
-    t: np.ndarray, y: np.ndarray, sigma: float, omega: float, left: np.ndarray
-) -> tuple[np.ndarray, float]:
+def _covariance(t: np.ndarray, y: np.ndarray, sigma: float, omega: float, left: np.ndarray) -> tuple[np.ndarray, float]:
     """Return the covariance of σ and ω, and the degrees of freedom that the residuals are worth."""
     columns = _columns(t, sigma, omega)
     amplitudes = np.linalg.lstsq(columns, y, rcond=None)[0]
