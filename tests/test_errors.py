@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pickle
+import shlex
 
 import numpy as np
 import pytest
@@ -11,6 +12,7 @@ from hypothesis import strategies as st
 
 from singletrack import InputError, PostureError, SingletrackError, coefficients, load_bicycle, load_rider
 from singletrack.arrays import Fault, refuse_single
+from singletrack.errors import install_hint
 from singletrack.files.toml_read import parse_record
 from singletrack.library.load import override
 
@@ -110,3 +112,13 @@ def test_faults_of_a_batch_are_those_that_hit(bad):
         error = fault.at((int(i),))
         assert (error.reason, error.parameters, error.found) == (f"mass = {i} kg", ("mass",), i)
     assert fault.kind == "mass = <mass> kg"
+
+
+def test_hints_install_from_the_checkout_or_by_name(tmp_path, monkeypatch):
+    checkout = tmp_path / "it's mine"
+    module = checkout / "src" / "singletrack" / "errors.py"
+    monkeypatch.setattr("singletrack.errors.__file__", str(module))
+    assert install_hint("sweep") == "pip install 'singletrack[sweep]'"
+    checkout.mkdir()
+    (checkout / "pyproject.toml").touch()
+    assert shlex.split(install_hint("sweep")) == ["pip", "install", f"{checkout.resolve()}[sweep]"]

@@ -7,6 +7,8 @@ and exits with code 2.
 from __future__ import annotations
 
 import difflib
+import shlex
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -18,6 +20,7 @@ __all__ = [
     "OddityWarning",
     "PostureError",
     "SingletrackError",
+    "install_hint",
     "nearest",
     "shown",
     "unknown",
@@ -259,3 +262,21 @@ def unknown(what: str, name: str, known: Iterable[str], place: str = "") -> Inpu
     """
     known = tuple(known)
     return InputError(unknown_name(what, name, known), parameters=(name,), found=name, allowed=known, place=place)
+
+
+def install_hint(extra: str) -> str:
+    """Return the command that installs an optional part, from the checkout that this is if it is one.
+
+    Parameters
+    ----------
+    extra : str
+        As pyproject.toml names it.
+
+    Examples
+    --------
+    >>> install_hint("sweep").endswith("[sweep]'")
+    True
+    """
+    checkout = Path(__file__).resolve().parents[2]
+    what = str(checkout) if (checkout / "pyproject.toml").is_file() else "singletrack"
+    return f"pip install {shlex.quote(f'{what}[{extra}]')}"

@@ -89,6 +89,17 @@ def test_shapes_of_one_segment_leave_the_others_alone() -> None:
             assert same == (other.removeprefix("right_").removeprefix("left_") != name)
 
 
+@pytest.mark.parametrize("length", [0.2, 0.45], ids=["grips ahead", "grips behind"])
+def test_a_bar_as_wide_as_the_shoulders_changes_nothing(length: float) -> None:
+    rider = RIDER.replace(forward_lean_angle=radians(50.0 if length > 0.2 else 75.0))
+    bicycle = load_bicycle("browser").replace(handlebar_length=length)
+    plain = skeleton(bicycle, rider)
+    wide = skeleton(bicycle.replace(handlebar_width=rider.shoulder_to_shoulder), rider)
+    assert (plain[19][0] < plain[21][0]) == (length > 0.2)
+    np.testing.assert_allclose(wide.points, plain.points, atol=1e-14)
+    np.testing.assert_allclose(wide.elbow_axis("right"), plain.elbow_axis("right"), atol=1e-12)
+
+
 def test_a_straight_arm_is_one_cylinder_as_thick_as_both_parts() -> None:
     bicycle = load_bicycle("browser").replace(handlebar_width=0.5)  # arms that are not parallel
     points = skeleton(bicycle, RIDER)
@@ -139,13 +150,19 @@ def test_shaped_straight_arms_are_both_parts_in_line() -> None:
         assert arm.radius == pytest.approx(around / (2 * pi), rel=1e-14)
 
 
-@pytest.mark.parametrize("drop", [None, 5.0, 35.0, 85.0])
-@pytest.mark.parametrize("width", [None, 0.3, 0.5])
-def test_the_elbow_hangs_or_is_turned_outwards(drop: float | None, width: float | None) -> None:
-    if drop is None and width is None:
-        pytest.skip("arms in planes x-z have tests of their own")
+@pytest.mark.parametrize(
+    ("drop", "width"),
+    [(drop, width) for drop in (None, 5.0, 35.0, 85.0) for width in (None, 0.3, 0.5) if drop is not None or width],
+)
+@pytest.mark.parametrize("behind", [False, True], ids=["grips ahead", "grips behind"])
+def test_the_elbow_hangs_or_is_turned_outwards(drop: float | None, width: float | None, behind: bool) -> None:
     rider = RIDER.replace(elbow_drop_angle=None if drop is None else radians(drop))
-    found = skeleton(load_bicycle("browser").replace(handlebar_width=width), rider)
+    bicycle = load_bicycle("browser").replace(handlebar_width=width)
+    if behind:
+        bicycle = bicycle.replace(handlebar_length=0.45)
+        rider = rider.replace(forward_lean_angle=radians(50.0))
+    found = skeleton(bicycle, rider)
+    assert (found[19][0] < found[21][0]) == behind
     points = [np.asarray(found[number]) for number in range(1, 32)]
     for side, (shoulder, elbow, grip) in (("right", (21, 23, 19)), ("left", (22, 24, 20))):
         outwards = 1.0 if side == "right" else -1.0
@@ -154,7 +171,8 @@ def test_the_elbow_hangs_or_is_turned_outwards(drop: float | None, width: float 
         assert np.linalg.norm(end - bent) == pytest.approx(rider.lower_arm_length, rel=1e-12)
         line = unit(end - start)
         aside = unit((bent - start) - ((bent - start) @ line) * line)
-        down = unit(np.array([0.0, 0.0, 1.0]) - line[2] * line)
+        # An elbow bends one way: below an arm that reaches ahead, behind one that hangs, above one that reaches back.
+        down = unit(np.array([0.0, 0.0, 1.0]) - line[2] * line) * (-1.0 if behind else 1.0)
         level = unit(np.cross(line, [0.0, 0.0, 1.0]))
         level = level * np.sign(level[1]) * outwards
         angle = radians(90.0 if drop is None else drop)

@@ -15,6 +15,7 @@ from singletrack.commands import app
 from singletrack.errors import InputError
 from singletrack.output import write_whole
 from singletrack.reproduce.cases import paper_cases
+from singletrack.reproduce.measured import measured_case
 from singletrack.reproduce.statements import check_statements
 
 failing = runpy.run_path(str(Path(__file__).with_name("faults.py")))["failing"]
@@ -93,15 +94,17 @@ def test_a_failure_anywhere_leaves_all_or_nothing(name, old, inputs, tmp_path, m
 @pytest.fixture(scope="module")
 def computed():
     """What the reproduction computes, once for all its runs here."""
-    cases = paper_cases()
-    return cases, check_statements(cases)
+    cases, measured = paper_cases(), measured_case()
+    return cases, measured, check_statements(cases, measured)
 
 
 @pytest.mark.parametrize("kind", ["open", "write", "fsync", "replace", "mkdir"])
 def test_reproduce_leaves_whole_files_only(kind, computed, tmp_path, monkeypatch, capsys):
-    cases, statements = computed
-    stubs = {"paper_cases": lambda: cases, "check_statements": lambda _: statements, "compare_engines": lambda _: []}
-    stubs |= dict.fromkeys(("posture_figure", "eigenvalue_figure", "phasor_figure"), lambda *_: None)
+    cases, measured, statements = computed
+    stubs = {"paper_cases": lambda: cases, "measured_case": lambda: measured, "compare_engines": lambda _: []}
+    stubs["check_statements"] = lambda *_: statements
+    drawn = ("posture_figure", "eigenvalue_figure", "phasor_figure", "measured_figure")
+    stubs |= dict.fromkeys(drawn, lambda *_: None)
     stubs["figure_bytes"] = lambda *_: b"a figure"
     for name, stub in stubs.items():
         monkeypatch.setattr(f"singletrack.reproduce.run.{name}", stub)

@@ -11,15 +11,29 @@ import numpy as np
 from singletrack.body import skeleton
 from singletrack.body.skeleton import frame_points
 from singletrack.parameters.bodies import bicycle_bodies
+from singletrack.posture import steered_skeleton
 
 if TYPE_CHECKING:
     from singletrack.parameters import Bicycle, Rider
+    from singletrack.posture import Posture
 
-__all__ = ["Outline", "outline"]
+__all__ = ["Outline", "Turned", "outline", "turned"]
 
 # Tubes and limbs of the right side between skeleton points (Table 3 of the paper).
 _TUBES = ((2, 5), (5, 10), (10, 13), (2, 10), (10, 12), (5, 11), (11, 7), (11, 16), (16, 19))
 _LIMBS = ((13, 15), (21, 23), (23, 19), (30, 28), (28, 26))
+# Arms, whole or in two parts, between skeleton points.
+_ARMS = {
+    "right_upper_arm": (21, 23),
+    "right_lower_arm": (23, 19),
+    "left_upper_arm": (22, 24),
+    "left_lower_arm": (24, 20),
+    "right_arm": (21, 19),
+    "left_arm": (22, 20),
+}
+#: Steer angles in degrees to choose from: the largest at which second order keeps the arms' lengths to so many m.
+_STEER_ANGLES = (20, 15, 10, 5, 2)
+_LENGTH_ERROR = 0.01
 _LETTERS = {"rear wheel": "R", "rear frame": "B", "front frame": "H", "front wheel": "F"}
 
 
@@ -85,3 +99,45 @@ def _steer_axis(bicycle: Bicycle, height: float, front: float) -> np.ndarray:
     base, tan = float(bicycle.wheel_base), math.tan(float(bicycle.steer_axis_tilt))
     foot = base + float(bicycle.trail)
     return np.array([[(foot, 0.0), (foot - height * tan, -height)], [(base, -front), (foot - front * tan, -front)]])
+
+
+@dataclass(frozen=True, eq=False)
+class Turned:
+    """A rider with the handlebar turned.
+
+    Attributes
+    ----------
+    steer : float
+        In rad, to the right.
+    points : array, shape (31, 3)
+        The skeleton, to second order.
+    """
+
+    steer: float
+    points: np.ndarray
+
+
+def turned(bicycle: Bicycle, posture: Posture) -> Turned | None:
+    """Return a rider with the handlebar turned as far as second order is good enough; nothing without hands on it.
+
+    Parameters
+    ----------
+    bicycle : Bicycle
+    posture : Posture
+        Of a single design.
+    """
+    if not posture.loops:
+        return None
+    straight = np.asarray(posture.skeleton.points, dtype=float)
+    for steer in np.radians(_STEER_ANGLES):
+        moved = np.asarray(steered_skeleton(posture, bicycle, np.asarray(steer)), dtype=float)
+        lengths = [
+            np.linalg.norm(points[end - 1] - points[start - 1])
+            for points in (moved, straight)
+            for name, (start, end) in _ARMS.items()
+            if name in posture.segments
+        ]
+        before, after = np.split(np.array(lengths), 2)
+        if np.abs(after - before).max(initial=0.0) < _LENGTH_ERROR:
+            break
+    return Turned(float(steer), moved)

@@ -23,19 +23,22 @@ def vector(*components: Array) -> Array:
 
 def stack(arrays: Sequence[Array], axis: int) -> Array:
     """Stack arrays of any broadcastable shapes along a new axis, counted from the end (-1: last)."""
-    xp, same_kind = as_arrays(*arrays)
-    if is_jax(*same_kind):
+    if is_jax(*arrays):
+        xp, same_kind = as_arrays(*arrays)
         return xp.stack(xp.broadcast_arrays(*same_kind), axis=axis)
-    # Written in place: a good deal faster than numpy.stack for the short axes used here.
-    shapes, dtypes = {array.shape for array in same_kind}, {array.dtype for array in same_kind}
+    # Written in place, a good deal faster than numpy.stack for the short axes used here; and with the new axis first in
+    # memory, so that components of many designs lie side by side.
+    xp = namespace()
+    shapes = {array.shape for array in arrays if hasattr(array, "shape")}
     shape = shapes.pop() if len(shapes) == 1 else xp.broadcast_shapes(*shapes)
+    kinds = {array.dtype for array in arrays if hasattr(array, "dtype")}
+    result = xp.empty((len(arrays), *shape), dtype=kinds.pop() if len(kinds) == 1 else xp.result_type(0.0, *arrays))
+    if result.dtype.kind not in "fc":
+        result = result.astype(float)
+    for k, array in enumerate(arrays):
+        result[k] = array
     place = len(shape) + 1 + axis
-    dtype = dtypes.pop() if len(dtypes) == 1 else xp.result_type(*dtypes)
-    result = xp.empty((*shape[:place], len(same_kind), *shape[place:]), dtype=dtype)
-    before = (slice(None),) * place
-    for k, array in enumerate(same_kind):
-        result[*before, k] = array
-    return result
+    return xp.moveaxis(result, 0, place) if place else result
 
 
 def cross(a: Array, b: Array) -> Array:

@@ -17,7 +17,7 @@ import numpy as np
 
 from singletrack.arrays import Array
 from singletrack.closed_form.coefficients import coefficients
-from singletrack.closed_form.flexible import Moving, moving_bodies
+from singletrack.closed_form.hinged import Moving, moving_bodies
 from singletrack.errors import InputError
 
 if TYPE_CHECKING:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
-from singletrack.errors import InputError
+from singletrack.errors import InputError, install_hint
 from singletrack.parameters.shapes import SegmentShape
 
 if TYPE_CHECKING:
@@ -67,9 +67,7 @@ def make_human(metres: dict[str, float], mass: float | None, where: str) -> Huma
     try:
         import yeadon  # optional
     except ImportError:
-        raise InputError(
-            f"{where}: reading Yeadon's measurements needs yeadon: pip install 'singletrack[yeadon]'"
-        ) from None
+        raise InputError(f"{where}: reading Yeadon's measurements needs yeadon: {install_hint('yeadon')}") from None
     # The package prints and warns about odd cross sections and raises errors of all kinds.
     try:
         with warnings.catch_warnings(), contextlib.redirect_stdout(io.StringIO()), np.errstate(all="ignore"):

@@ -5,23 +5,21 @@ from singletrack.multibody.bicycle.hands_free import free_turns, hands_free_fami
 from singletrack.multibody.bicycle.model import bicycle_model, ride
 from singletrack.multibody.bicycle.turning import circle, held_turn, held_turns
 from singletrack.multibody.engine.assembly import assemble, move
-from singletrack.multibody.engine.connections import (
+from singletrack.multibody.engine.closures import (
     Closure,
-    CoordinateForce,
-    Force,
-    Sensor,
-    Spring,
-    Torque,
-    Wheel,
+    Ratio,
+    close_direction,
     close_distance,
     close_joint,
     close_point,
 )
+from singletrack.multibody.engine.connections import CoordinateForce, Force, Sensor, Spring, Torque, Wheel
 from singletrack.multibody.engine.dynamics import Response, accelerations, loop_forces, wheel_forces
 from singletrack.multibody.engine.elements import (
     GROUND,
     Body,
     Joint,
+    Motion,
     cylindrical,
     fixed,
     free,
@@ -38,12 +36,21 @@ from singletrack.multibody.engine.inputs import Constant, Function, Pulse, Sampl
 from singletrack.multibody.engine.limits import Limit, Reach
 from singletrack.multibody.engine.linearise import Linearisation, linearise, speed_polynomials
 from singletrack.multibody.engine.model import Model, State, build
+from singletrack.multibody.engine.reactions import (
+    Buckling,
+    Reaction,
+    buckling_load,
+    driving_forces,
+    inverse_dynamics,
+    joint_reactions,
+)
 from singletrack.multibody.engine.simulate import Event, simulate
 from singletrack.multibody.engine.system import System
 
 __all__ = [
     "GROUND",
     "Body",
+    "Buckling",
     "Closure",
     "Constant",
     "CoordinateForce",
@@ -54,8 +61,11 @@ __all__ = [
     "Limit",
     "Linearisation",
     "Model",
+    "Motion",
     "Pulse",
+    "Ratio",
     "Reach",
+    "Reaction",
     "Response",
     "Sampled",
     "Sensor",
@@ -68,19 +78,24 @@ __all__ = [
     "accelerations",
     "assemble",
     "bicycle_model",
+    "buckling_load",
     "build",
     "circle",
+    "close_direction",
     "close_distance",
     "close_joint",
     "close_point",
     "coefficients",
     "cylindrical",
+    "driving_forces",
     "fixed",
     "free",
     "free_turns",
     "hands_free_family",
     "held_turn",
     "held_turns",
+    "inverse_dynamics",
+    "joint_reactions",
     "linearise",
     "loop_forces",
     "move",

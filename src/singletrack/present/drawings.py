@@ -6,7 +6,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from singletrack.posture import Posture, steered_skeleton
 from singletrack.present.style import COLOURS, new_figure, style
 
 if TYPE_CHECKING:
@@ -14,7 +13,9 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
     from matplotlib.patches import Polygon
 
+    from singletrack.analysis.outline import Turned
     from singletrack.parameters import Bicycle
+    from singletrack.posture import Posture
 
 __all__ = ["posture_figure"]
 
@@ -33,12 +34,9 @@ _LIMBS = {
     "left_lower_arm": (24, 20),
 }
 _STRAIGHT_ARMS = {"right_arm": (21, 19), "left_arm": (22, 20)}
-#: Steer angles in degrees to choose from for the second outline: the largest at which second order is good enough.
-_STEER_ANGLES = (20, 15, 10, 5, 2)
-_LENGTH_ERROR = 0.01  # m, of the lower arms
 
 
-def posture_figure(bicycle: Bicycle, posture: Posture, title: str) -> Figure:
+def posture_figure(bicycle: Bicycle, posture: Posture, title: str, turned: Turned | None = None) -> Figure:
     """Return a drawing of a single bicycle and rider: side view, and top view also with the handlebar turned.
 
     Parameters
@@ -46,6 +44,8 @@ def posture_figure(bicycle: Bicycle, posture: Posture, title: str) -> Figure:
     bicycle : Bicycle
     posture : Posture
     title : str
+    turned : Turned, optional
+        The same with the handlebar turned, to draw as well.
     """
     with style():
         figure = new_figure(5.6, 7.8)
@@ -57,10 +57,11 @@ def posture_figure(bicycle: Bicycle, posture: Posture, title: str) -> Figure:
         top.set(xlim=ends, ylim=(-0.42, 0.42))
         _side_view(side, bicycle, posture, points)
         note = "top view"
+        if turned is not None:
+            moved = _numbered(turned.points)
+            _top_view(top, bicycle, posture, moved, COLOURS["moved"], 0.55, steer=turned.steer)
+            note += f"; blue: steered {np.degrees(turned.steer):.0f}° to the right"
         if posture.loops:
-            angle, moved = _steered(bicycle, posture)
-            _top_view(top, bicycle, posture, moved, COLOURS["moved"], 0.55, steer=float(np.radians(angle)))
-            note += f"; blue: steered {angle}° to the right"
             side.set_xlabel("circles: hinges, squares: hands on the grips", fontsize=8)
         top.set_title(note, loc="left", fontsize=9)
         _top_view(top, bicycle, posture, points, COLOURS["rider"], 0.6)
@@ -70,21 +71,6 @@ def posture_figure(bicycle: Bicycle, posture: Posture, title: str) -> Figure:
         top.set_xlabel("forward of the rear contact, x (m)")
         top.invert_yaxis()
     return figure
-
-
-def _steered(bicycle: Bicycle, posture: Posture) -> tuple[int, np.ndarray]:
-    """Return a steer angle in degrees at which the arms keep their lengths to second order, and the points there."""
-    straight = _numbered(posture.skeleton.points)
-    for angle in _STEER_ANGLES:
-        moved = _numbered(steered_skeleton(posture, bicycle, np.asarray(np.radians(angle))))
-        change = [
-            np.linalg.norm(moved[end] - moved[start]) - np.linalg.norm(straight[end] - straight[start])
-            for name, (start, end) in (_LIMBS | _STRAIGHT_ARMS).items()
-            if name in posture.segments
-        ]
-        if np.abs(change).max() < _LENGTH_ERROR:
-            break
-    return angle, moved
 
 
 def _numbered(points: np.ndarray) -> np.ndarray:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from singletrack.present.labels import Curve, label_curves
-from singletrack.present.style import COLOURS, new_figure, style
+from singletrack.present.style import COLOURS, mode_colour, new_figure, style
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -141,10 +141,10 @@ def _mode_curves(modes: Modes) -> list[tuple[Curve, bool]]:
     v, roots = modes.speeds, modes.eigenvalues
     curves = []
     for column, name in enumerate(modes.names):
-        colour = COLOURS[name]
+        colour = mode_colour(modes.names, column)
         real = _broken(roots, column)
         imaginary = np.where(roots[:, column].imag > 0, roots[:, column].imag, np.nan)
-        second_of_pair = column == 1
+        second_of_pair = name in modes.names[:column]
         curves.append((Curve(v, real, "" if second_of_pair else f"Re {name}", colour), False))
         if np.isfinite(imaginary).any():
             curves.append((Curve(v, imaginary, "" if second_of_pair else f"Im {name}", colour), True))

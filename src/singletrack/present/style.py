@@ -11,7 +11,7 @@ if TYPE_CHECKING:
 
     from matplotlib.figure import Figure
 
-__all__ = ["COLOURS", "figure_bytes", "new_figure", "style"]
+__all__ = ["COLOURS", "figure_bytes", "mode_colour", "new_figure", "style"]
 
 #: Colour of each mode and part, distinguishable with all common kinds of colour blindness (Okabe and Ito).
 COLOURS = {
@@ -24,6 +24,16 @@ COLOURS = {
     "rider": "#E69F00",
     "moved": "#56B4E9",
 }
+
+#: Colours of further modes, in the order of their coordinates.
+_FURTHER = ("#CC79A7", "#E69F00", "#56B4E9")
+
+
+def mode_colour(names: tuple[str, ...], column: int) -> str:
+    """Return the colour of a mode among the columns of all, told apart from the others."""
+    name = names[column]
+    return COLOURS[name] if name in COLOURS else _FURTHER[(column // 2 - 2) % len(_FURTHER)]
+
 
 _PARAMETERS: Any = {
     "font.size": 9.0,

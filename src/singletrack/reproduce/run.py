@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
+from singletrack.analysis.outline import turned
 from singletrack.body.skeleton import POINT_NAMES
 from singletrack.control import control_summary
 from singletrack.output import prepare_folder, write_whole
@@ -92,7 +93,7 @@ def _drawings(cases: dict[str, Case]) -> Iterator[tuple[Picture, Callable[[], Fi
         return lambda: eigenvalue_figure(cases[name].modes, cases[name].critical, caption)
 
     def posture(case: Case) -> Callable[[], Figure]:
-        return lambda: posture_figure(case.bicycle, case.seated, case.title)
+        return lambda: posture_figure(case.bicycle, case.seated, case.title, turned(case.bicycle, case.seated))
 
     def phasors(bicycle: str) -> Callable[[], Figure]:
         rows = [

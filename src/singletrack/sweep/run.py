@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from singletrack.errors import InputError, SingletrackError
+from singletrack.errors import InputError, SingletrackError, install_hint
 from singletrack.sweep.chunks import Task
 from singletrack.sweep.cluster import do_on_cluster
 from singletrack.sweep.processes import available_cores, do_in_processes
@@ -56,7 +56,7 @@ def require_extra(scheduler: str | None = None) -> None:
     """Raise InputError if what sweeps, or sweeps with a scheduler, need besides is not installed."""
     for name, who, extra in (("zarr", "sweeps need", "sweep"), ("distributed", "--scheduler needs", "cluster")):
         if find_spec(name) is None and (scheduler is not None or extra == "sweep"):
-            raise InputError(f"{who} {name}: pip install 'singletrack[{extra}]'")
+            raise InputError(f"{who} {name}: {install_hint(extra)}")
 
 
 def run_sweep(

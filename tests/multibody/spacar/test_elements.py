@@ -242,3 +242,35 @@ def test_line_frees_a_deformation_in_the_linear_model_only():
     assert both.coordinates == ("e 1 1", "e 2 1")
     np.testing.assert_allclose(both.M, [[3, 1], [1, 1]], atol=1e-12)
     np.testing.assert_allclose(both.K, [[5, 0], [0, 3]], atol=1e-12)
+
+
+def test_redundant_loops_go_all_the_way_round():
+    """A crank-rocker of hinges in space, whichever constraints were left out in the drawing; it keeps its energy."""
+    text = """
+    PINBODY 1 1 2 3
+    PINBODY 2 3 4 5
+    PINBODY 3 7 6 5
+    HINGE 4 10 2 0 1 0
+    HINGE 5 2 4 0 1 0
+    HINGE 6 4 6 0 1 0
+    HINGE 7 6 10 0 1 0
+    X 3 0 0 0.3
+    X 5 1 0 0.8
+    X 7 1 0 0
+    FIX 1
+    FIX 7
+    FIX 10
+    DYNE 4 1
+    RLSE 5 1
+    RLSE 6 1
+    RLSE 7 1
+    MASS 3 1.5
+    MASS 5 0.5
+    ED 4 1 8
+    """
+    model = spacar.read_text(text)
+    motions = model.run(np.linspace(0, 1.0, 11))
+    angle = [model.by_element(motion.state.e)[4][0] for motion in motions]
+    assert angle[-1] > 2 * np.pi
+    energies = [m.state.v @ inertia(model.layout, m.state.x, m.state.v)[0] @ m.state.v / 2 for m in motions]
+    np.testing.assert_allclose(energies, energies[0], rtol=1e-6)

@@ -7,16 +7,24 @@ from typing import TYPE_CHECKING
 
 import casadi as ca
 
-from singletrack.multibody.engine.kinematics import DOWN, SX, column, slices, unit
+from singletrack.multibody.engine.kinematics import DOWN, SX, Wrench, column, slices, unit
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from singletrack.multibody.engine.connections import Closure, Wheel
+    from singletrack.multibody.engine.closures import Closure, Ratio
+    from singletrack.multibody.engine.connections import Wheel
     from singletrack.multibody.engine.kinematics import Frame
     from singletrack.multibody.engine.system import System
 
-__all__ = ["Contact", "closure_wrench", "constraint_rates", "holonomic_residual", "wheel_contact"]
+__all__ = [
+    "Contact",
+    "closure_wrench",
+    "constraint_rates",
+    "constraint_wrenches",
+    "holonomic_residual",
+    "wheel_contact",
+]
 
 
 def closure_residual(closure: Closure, frames: Mapping[str, Frame]) -> SX:
@@ -99,9 +107,14 @@ def _quaternions(system: System, q: SX) -> list[SX]:
     return [q[place[joint.name]][-4:] for joint in system.joints if joint.quaternion]
 
 
+def _combined(system: System, ratio: Ratio, q: SX) -> SX:
+    return sum((factor * q[system.coordinates.index(name)] for name, factor in ratio.factors.items()), ca.SX(0))
+
+
 def holonomic_residual(system: System, frames: Mapping[str, Frame], contacts: Mapping[str, Contact], q: SX) -> SX:
     """Return everything that must vanish in position: loops, lengths of quaternions, wheel heights."""
     loops = [closure_residual(closure, frames) for closure in system.closures]
+    loops += [_combined(system, ratio, q) - ratio.offset for ratio in system.ratios]
     lengths = [2 * part[0] + ca.dot(part, part) for part in _quaternions(system, q)]
     return ca.vertcat(ca.SX(0, 1), *loops, *lengths, *(contacts[wheel.name].point[2] for wheel in system.wheels))
 
@@ -110,7 +123,40 @@ def constraint_rates(system: System, frames: Mapping[str, Frame], contacts: Mapp
     """Return everything that must vanish in velocity: rates of the holonomic residual, then the slip of wheels."""
     touching = [contacts[wheel.name].velocity for wheel in system.wheels]
     loops = [closure_rate(closure, frames) for closure in system.closures]
+    loops += [_combined(system, ratio, u) for ratio in system.ratios]
     pairs = zip(_quaternions(system, q), _quaternions(system, u), strict=True)
     lengths = [2 * rate[0] + 2 * ca.dot(part, rate) for part, rate in pairs]
     sinking, slipping = [v[2] for v in touching], [v[:2] for v in touching]
     return ca.vertcat(ca.SX(0, 1), *loops, *lengths, *sinking, *slipping)
+
+
+def constraint_wrenches(
+    system: System,
+    frames: Mapping[str, Frame],
+    contacts: Mapping[str, Contact],
+    m: SX,
+    applied: Mapping[str, Wrench],
+) -> dict[str, Wrench]:
+    """Return the applied wrenches together with those of loops and wheels, for multipliers m, about the anchors."""
+    wrenches = dict(applied)
+
+    def push(body: str, arm: SX, force: SX, torque: SX) -> None:
+        wrench = Wrench(force, ca.cross(arm, force) + torque)
+        wrenches[body] = wrenches[body] + wrench if body in wrenches else wrench
+
+    start = 0
+    for closure in system.closures:
+        stop = start + len(closure.rows)
+        force, torque = closure_wrench(closure, frames, m[start:stop])
+        second = frames[closure.second].point(column(closure.second_point))
+        # the force on the first body acts where the second is held, also where the points may part
+        push(closure.second, second - frames[closure.second].position, force, torque)
+        push(closure.first, second - frames[closure.first].position, -force, -torque)
+        start = stop
+    holonomic, wheels, zero = len(system.holonomic_rows), len(system.wheels), ca.SX(3, 1)
+    for i, wheel in enumerate(system.wheels):
+        contact = contacts[wheel.name]
+        along, across = m[holonomic + 2 * i], m[holonomic + 2 * i + 1]
+        force = along * contact.heading + across * ca.cross(DOWN, contact.heading) + m[holonomic - wheels + i] * DOWN
+        push(wheel.body, contact.point - frames[wheel.body].position, force, zero)
+    return wrenches

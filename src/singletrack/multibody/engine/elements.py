@@ -128,7 +128,17 @@ class Body:
 class Motion:
     """One degree of freedom of a joint: a translation along or a rotation about an axis, with spring and damper.
 
-    The generalised force is ``preload - stiffness q - damping q'`` (N or N m; stiffness in N/m or N m/rad).
+    The generalised force is ``preload - stiffness q - damping q'`` (N or N m; stiffness in N/m or N m/rad). Any joint
+    is a succession of motions, each carried along by those before.
+
+    Examples
+    --------
+    A telescopic crane: it turns, rises, and then slides out along its boom.
+
+    >>> turns = [Motion("slew", rotates=True, axis=(0, 0, 1)), Motion("luff", rotates=True, axis=(0, 1, 0))]
+    >>> reach = Motion("reach", rotates=False, axis=(1, 0, 0))
+    >>> Joint("crane", "ground", "boom", (0, 0, -1), (*turns, reach)).coordinates
+    ('slew', 'luff', 'reach')
     """
 
     name: str
@@ -138,12 +148,18 @@ class Motion:
     damping: Scalar = 0.0
     preload: Scalar = 0.0
 
+    def __post_init__(self) -> None:
+        element = f"motion {self.name}"
+        object.__setattr__(self, "axis", check_axis(element, "axis", self.axis))
+        for name in ("stiffness", "damping", "preload"):
+            object.__setattr__(self, name, check_number(element, name, getattr(self, name)))
+
 
 @dataclass(frozen=True, eq=False)
 class Joint:
-    """A joint of the tree: the child moves relative to the parent by motions in succession, translations first.
+    """A joint of the tree: the child moves relative to the parent by motions in succession.
 
-    Rotations turn about ``point`` (drawing, m); each later axis is carried along by the earlier ones. With
+    Rotations turn about ``point`` (drawing, m), slid along by the translations before; each axis is carried along. With
     ``quaternion``, the last four coordinates are a unit quaternion less (1, 0, 0, 0), and one more constraint.
     """
 
@@ -156,6 +172,7 @@ class Joint:
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "point", check_vector(f"joint {self.name}", "point", self.point))
+        object.__setattr__(self, "motions", tuple(self.motions))
 
     @property
     def coordinates(self) -> tuple[str, ...]:

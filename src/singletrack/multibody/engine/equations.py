@@ -21,6 +21,7 @@ from singletrack.multibody.engine.constraints import (
     Contact,
     closure_wrench,
     constraint_rates,
+    constraint_wrenches,
     holonomic_residual,
     wheel_contact,
 )
@@ -31,10 +32,11 @@ from singletrack.multibody.engine.forces import (
     kinetic_energy,
     potential_energy,
 )
-from singletrack.multibody.engine.kinematics import SX, Frame, column, forward, inverse, unit
+from singletrack.multibody.engine.kinematics import SX, Frame, Wrench, column, forward, inverse, unit
 
 if TYPE_CHECKING:
-    from singletrack.multibody.engine.connections import Closure, Spring
+    from singletrack.multibody.engine.closures import Closure
+    from singletrack.multibody.engine.connections import Spring
     from singletrack.multibody.engine.system import System
 
 __all__ = ["Equations", "derive"]
@@ -64,6 +66,8 @@ class Equations:
     contacts
         (q, p) -> contact points (3, wheels), headings (3, wheels), how upright the wheels are (1, wheels): one upright,
         zero where the axle is vertical.
+    reactions
+        (q, u, a, m, f, p) -> forces (3, joints) and moments (3, joints) of parents on children, about their anchors.
     poses
         (q, p) -> translations (3, bodies) and rotations (3, 3 bodies): a drawn point x of a body is at t + R x.
     lengths
@@ -83,6 +87,7 @@ class Equations:
     energy: ca.Function
     contacts: ca.Function
     poses: ca.Function
+    reactions: ca.Function
     lengths: ca.Function
     loop_wrenches: ca.Function
     sensors: ca.Function
@@ -103,6 +108,7 @@ class _Symbols:
     demand: SX
     phi: SX
     rate: SX
+    reactions: dict[str, Wrench]
 
 
 def _express(system: System) -> _Symbols:
@@ -113,10 +119,12 @@ def _express(system: System) -> _Symbols:
     frames, links = forward(system, q, u, a)
     contacts = {wheel.name: wheel_contact(wheel, frames) for wheel in system.wheels}
     wrenches = applied_wrenches(system, frames, gravity, f)
-    demand = inverse(system, frames, links, wrenches) - coordinate_forces(system, q, u, f)
+    demand = inverse(system, frames, links, wrenches)[0] - coordinate_forces(system, q, u, f)
+    constrained = constraint_wrenches(system, frames, contacts, m, wrenches)
+    reactions = inverse(system, frames, links, constrained)[1]
     phi = holonomic_residual(system, frames, contacts, q)
     rate = constraint_rates(system, frames, contacts, q, u)
-    return _Symbols(q, u, a, f, m, gravity, frames, contacts, demand, phi, rate)
+    return _Symbols(q, u, a, f, m, gravity, frames, contacts, demand, phi, rate, reactions)
 
 
 def _sensor_outputs(system: System, frames: dict[str, Frame]) -> SX:
@@ -140,6 +148,12 @@ def _poses(system: System, frames: dict[str, Frame]) -> tuple[SX, SX]:
     placed = [frames[body.name] for body in system.bodies]
     translations = [frame.position - frame.rotation @ frame.anchor for frame in placed]
     return _matrix(translations), ca.horzcat(ca.SX(3, 0), *(frame.rotation for frame in placed))
+
+
+def _reactions(system: System, s: _Symbols) -> tuple[SX, SX]:
+    """Return forces (3, joints) and moments (3, joints) of the parents on the children, about the joints' points."""
+    wrenches = [s.reactions[joint.name] for joint in system.joints]
+    return _matrix([wrench.force for wrench in wrenches]), _matrix([wrench.moment for wrench in wrenches])
 
 
 def _lengths(system: System, frames: dict[str, Frame]) -> SX:
@@ -204,6 +218,7 @@ def derive(system: System) -> Equations:
         ),
         "contacts": ((s.q,), (points, headings, levels)),
         "poses": ((s.q,), _poses(system, s.frames)),
+        "reactions": ((s.q, s.u, s.a, s.m, s.f), _reactions(system, s)),
         "lengths": ((s.q,), (_lengths(system, s.frames),)),
         "loop_wrenches": ((s.q, s.m), _loop_wrenches(system, s)),
         "sensors": ((s.q, s.u), (_sensor_outputs(system, s.frames),)),

@@ -12,7 +12,8 @@ from singletrack.multibody.engine.kinematics import SX, Wrench, column, inertia_
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from singletrack.multibody.engine.connections import Closure, Spring
+    from singletrack.multibody.engine.closures import Closure
+    from singletrack.multibody.engine.connections import Spring
     from singletrack.multibody.engine.kinematics import Frame
     from singletrack.multibody.engine.system import System
 

@@ -86,10 +86,14 @@ class Wrench:
 
 @dataclass(frozen=True, eq=False)
 class _Link:
-    """A joint in motion: the arm from the parent's anchor to the child's, and the axes of its motions."""
+    """A joint in motion: the arm from the parent's anchor to the child's, and the axes of its motions.
+
+    ``levers`` lead from where each motion turns to the child's anchor: not zero where a slide follows a turn.
+    """
 
     arm: SX
     axes: tuple[SX, ...]
+    levers: tuple[SX, ...]
 
 
 def ground_frame() -> Frame:
@@ -113,38 +117,34 @@ def _carry(parent: Frame, joint: Joint, q: SX, u: SX, a: SX) -> tuple[Frame, _Li
     point = column(joint.point)
     arm = parent.arm(point)
     rotation, spin, angular = parent.rotation, parent.spin, parent.angular_acceleration
-    relative_velocity, relative_acceleration = ca.SX(3, 1), ca.SX(3, 1)
-    axes = []
+    velocity, acceleration = parent.point_velocity(arm), parent.point_acceleration(arm)
+    axes, reached = [], []
     simple = joint.motions[:-4] if joint.quaternion else joint.motions
     for i, motion in enumerate(simple):
         drawn = unit(motion.axis)
         axis = rotation @ drawn
         axes.append(axis)
+        reached.append(arm)
         if motion.rotates:
             angular = angular + axis * a[i] + ca.cross(spin, axis) * u[i]
             spin = spin + axis * u[i]
             rotation = rotation @ rotation_about(drawn, q[i])
         else:
-            arm = arm + axis * q[i]
-            relative_velocity += axis * u[i]
-            relative_acceleration += axis * a[i]
+            slid, moving = axis * q[i], axis * u[i]
+            arm = arm + slid
+            velocity = velocity + ca.cross(spin, slid) + moving
+            turning = ca.cross(angular, slid) + ca.cross(spin, ca.cross(spin, slid))
+            acceleration = acceleration + turning + 2 * ca.cross(spin, moving) + axis * a[i]
     if joint.quaternion:
         turn, columns = quaternion_turn(q[-4:])
         relative, change = columns @ u[-4:], columns @ a[-4:] + ca.jtimes(columns @ u[-4:], q[-4:], u[-4:])
         angular = angular + rotation @ change + ca.cross(spin, rotation @ relative)
         spin = spin + rotation @ relative
         axes += [rotation @ columns[:, i] for i in range(4)]
+        reached += [arm] * 4
         rotation = rotation @ turn
-    frame = Frame(
-        point,
-        parent.position + arm,
-        rotation,
-        parent.point_velocity(arm) + relative_velocity,
-        spin,
-        parent.point_acceleration(arm) + 2 * ca.cross(parent.spin, relative_velocity) + relative_acceleration,
-        angular,
-    )
-    return frame, _Link(arm, tuple(axes))
+    frame = Frame(point, parent.position + arm, rotation, velocity, spin, acceleration, angular)
+    return frame, _Link(arm, tuple(axes), tuple(arm - before for before in reached))
 
 
 def tree_order(system: System) -> list[Joint]:
@@ -198,13 +198,14 @@ def inertial_wrench(body: Body, frame: Frame) -> Wrench:
 
 def inverse(
     system: System, frames: Mapping[str, Frame], links: Mapping[str, _Link], applied: Mapping[str, Wrench]
-) -> SX:
-    """Return the generalised forces (n,) that the motion takes beyond the applied wrenches.
+) -> tuple[SX, dict[str, Wrench]]:
+    """Return the generalised forces (n,) that the motion takes beyond the applied wrenches, and the joints' wrenches.
 
     Recursive Newton-Euler: the wrench every joint must transmit, from the tips of the tree to the ground.
     """
     bodies = {body.name: body for body in system.bodies}
     carried: dict[str, Wrench] = {}
+    through: dict[str, Wrench] = {}
     place = slices(system)
     forces: dict[int, SX] = {}
     for joint in reversed(tree_order(system)):
@@ -214,9 +215,10 @@ def inverse(
             wrench = wrench + carried[child]
         if child in applied:
             wrench = wrench + Wrench(-applied[child].force, -applied[child].moment)
-        for i, (motion, axis) in enumerate(zip(joint.motions, link.axes, strict=True)):
-            along = wrench.moment if motion.rotates else wrench.force
+        through[joint.name] = wrench
+        for i, (motion, axis, lever) in enumerate(zip(joint.motions, link.axes, link.levers, strict=True)):
+            along = wrench.moment + ca.cross(lever, wrench.force) if motion.rotates else wrench.force
             forces[place[joint.name].start + i] = ca.dot(axis, along)
         handed = Wrench(wrench.force, wrench.moment + ca.cross(link.arm, wrench.force))
         carried[joint.parent] = carried[joint.parent] + handed if joint.parent in carried else handed
-    return ca.vertcat(ca.SX(0, 1), *(forces[i] for i in range(len(forces))))
+    return ca.vertcat(ca.SX(0, 1), *(forces[i] for i in range(len(forces)))), through

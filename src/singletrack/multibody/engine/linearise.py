@@ -157,7 +157,8 @@ def linearise(
     keep
         Names of the coordinates to keep; found automatically where None.
     outputs
-        Names of coordinates, rates (``"lean'"``) or sensors to observe; by default all coordinates and rates kept.
+        Names of coordinates, rates (``"lean'"``), accelerations (``"lean''"``), sensors, or constraints, whose
+        multipliers are forces (``"front wheel (lateral)"``, N); by default all coordinates and rates kept.
 
     Raises
     ------
@@ -193,6 +194,10 @@ def linearise(
     directions = np.hstack([v.coordinate_directions[:, kept], np.zeros_like(v.span)])
     speed_directions = np.hstack([v.speed_changes[:, kept], v.span])
     seen = _observe(state, observed, directions, speed_directions)
+    through = np.zeros((len(observed), r))
+    if any(name.endswith("''") or name in system.rows for name in observed):
+        columns = [*kept, *range(v.K.shape[1], v.K.shape[1] + m)]
+        _observe_responses(state, observed, v, columns, solved, seen, through)
     return Linearisation(
         state,
         coordinates,
@@ -206,7 +211,7 @@ def linearise(
         A,
         B,
         seen,
-        np.zeros((len(observed), r)),
+        through,
     )
 
 
@@ -235,12 +240,42 @@ def _observe(state: State, names: Sequence[str], dq: Array, du: Array) -> Array:
     for name in names:
         if name in sensors:
             rows.append(sensed[sensors.index(name)])
+        elif name in system.rows or name.removesuffix("''") != name:
+            rows.append(np.zeros(dq.shape[1]))  # filled in by what the machine responds
         elif name.removesuffix("'") in system.coordinates:
             place = system.coordinates.index(name.removesuffix("'"))
             rows.append(du[place] if name.endswith("'") else dq[place])
         else:
             raise ModelError(unknown_name("output", name, (*system.coordinates, *sensors)))
     return np.array(rows).reshape(len(names), dq.shape[1])
+
+
+def _observe_responses(
+    state: State, names: Sequence[str], v: Variations, columns: list[int], solved: Array, seen: Array, through: Array
+) -> None:
+    """Fill in the rows of accelerations and of multipliers, in the states (C) and in the inputs (D)."""
+    system, parts = state.model.system, state.partition
+    jacobian, mass = state.model.kinetics(state.q, state.parameters)
+    drive = state.model.equations.input_matrix(state.q, state.parameters).full()
+    states = len(columns)
+    changed = v.acceleration_changes[:, columns] + v.span @ solved[:, :states]
+    pushed = v.span @ solved[:, states:]
+    multipliers = [np.zeros((len(system.rows), width)) for width in (states, drive.shape[1])]
+    rows, dependent = list(parts.rows), list(parts.dependent_speeds)
+    if rows:
+        own = jacobian[np.ix_(rows, dependent)].T
+        left = (mass @ changed + v.residual_changes[:, columns], mass @ pushed - drive)
+        for found, side in zip(multipliers, left, strict=True):
+            found[rows] = np.linalg.solve(own, side[dependent])
+    for i, name in enumerate(names):
+        if name in system.rows:
+            place = system.rows.index(name)
+            seen[i], through[i] = multipliers[0][place], multipliers[1][place]
+        elif name.endswith("''"):
+            if name[:-2] not in system.coordinates:
+                raise ModelError(unknown_name("output", name, system.coordinates))
+            place = system.coordinates.index(name[:-2])
+            seen[i], through[i] = changed[place], pushed[place]
 
 
 def _sensor_gradients(state: State) -> tuple[Array, Array]:

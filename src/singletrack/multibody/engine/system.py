@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 from singletrack.errors import ModelError, unknown_name
 from singletrack.multibody.engine.checks import check_axis, check_number, is_number
-from singletrack.multibody.engine.connections import Closure, CoordinateForce, Force, Sensor, Spring, Torque, Wheel
+from singletrack.multibody.engine.closures import Closure, Ratio
+from singletrack.multibody.engine.connections import CoordinateForce, Force, Sensor, Spring, Torque, Wheel
 from singletrack.multibody.engine.elements import GROUND, Body, Joint, Scalar, Vector
 from singletrack.multibody.engine.limits import Limit, Reach
 
@@ -38,6 +39,8 @@ class System:
         Direction of gravity. Wheels roll on z = 0 whatever it is.
     independent
         Names of the coordinates whose rates shall be the independent speeds; found automatically where None.
+    ratios
+        Fixed ratios between coordinates: gears, chains.
     limits
         Where a simulation ends by itself: ranges of coordinates, and loops at the end of their reach.
     parameters
@@ -67,10 +70,11 @@ class System:
     down: Vector = (0.0, 0.0, 1.0)
     independent: tuple[str, ...] | None = None
     limits: tuple[Limit | Reach, ...] = ()
+    ratios: tuple[Ratio, ...] = ()
     parameters: Mapping[str, float] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        for name in ("bodies", "joints", "closures", "wheels", "springs", "inputs", "sensors", "limits"):
+        for name in ("bodies", "joints", "closures", "wheels", "springs", "inputs", "sensors", "limits", "ratios"):
             object.__setattr__(self, name, tuple(getattr(self, name)))
         if not is_number(self.gravity):
             raise ModelError("system: gravity must be a number; to vary it, give the parameter `gravity` a value later")
@@ -81,6 +85,7 @@ class System:
         _check_names(self)
         _check_tree(self)
         _check_connections(self)
+        _check_ratios(self)
         _check_limits(self)
 
     def rows_of(self, loops: Iterable[str]) -> list[int]:
@@ -99,8 +104,9 @@ class System:
 
     @property
     def holonomic_rows(self) -> tuple[str, ...]:
-        """Names of the constraints on coordinates: loops, lengths of quaternions, heights of the wheels."""
+        """Names of the constraints on coordinates: loops, ratios, lengths of quaternions, heights of the wheels."""
         loops = [row for closure in self.closures for row in closure.rows]
+        loops += [f"{ratio.name} (ratio)" for ratio in self.ratios]
         loops += [f"{joint.name} (quaternion)" for joint in self.joints if joint.quaternion]
         return tuple(loops + [f"{wheel.name} (height)" for wheel in self.wheels])
 
@@ -121,6 +127,7 @@ def _check_names(system: System) -> None:
         "joint": [joint.name for joint in system.joints],
         "coordinate": system.coordinates,
         "loop": [closure.name for closure in system.closures],
+        "ratio": [ratio.name for ratio in system.ratios],
         "wheel": [wheel.name for wheel in system.wheels],
         "spring": [spring.name for spring in system.springs],
         "input": [given.name for given in system.inputs],
@@ -182,6 +189,13 @@ def _check_connections(system: System) -> None:
     for wheel in system.wheels:
         if wheel.body == GROUND:
             raise ModelError(f"wheel {wheel.name}: the ground does not roll on itself")
+
+
+def _check_ratios(system: System) -> None:
+    for ratio in system.ratios:
+        for name in ratio.factors:
+            if name not in system.coordinates:
+                raise ModelError(f"ratio {ratio.name}: " + unknown_name("coordinate", name, system.coordinates))
 
 
 def _check_limits(system: System) -> None:

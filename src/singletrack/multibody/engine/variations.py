@@ -43,6 +43,9 @@ class Variations:
         How all coordinates follow the independent ones, T_q (n, k).
     speed_changes
         How the speeds follow the independent coordinates while the independent speeds are held, (n, k).
+    acceleration_changes, residual_changes
+        How accelerations and the equations' residual R change with the independent coordinates and speeds while the
+        independent accelerations and the multipliers are held, (n, k + m) each.
     """
 
     span: Array
@@ -51,6 +54,8 @@ class Variations:
     K: Array
     C: Array
     speed_changes: Array
+    acceleration_changes: Array
+    residual_changes: Array
 
 
 def _change(state: State, response: Response, f: Array, dq: Array, du: Array) -> tuple[Array, Array, Array]:
@@ -91,7 +96,7 @@ def vary(state: State, response: Response, f: Array) -> Variations:
     span = span_of(state.partition, jacobian)
     directions = _coordinate_directions(state, jacobian)
     zero = np.zeros(len(state.q))
-    stiffness, speed_changes = [], []
+    stiffness, speed_changes, followed, left = [], [], [], []
     for dq in directions.T:
         _, rate, _ = _change(state, response, f, dq, zero)
         du = _follow(state, jacobian, rate)
@@ -99,12 +104,17 @@ def vary(state: State, response: Response, f: Array) -> Variations:
         da = _follow(state, jacobian, acceleration)
         stiffness.append(span.T @ (residual + mass @ da))
         speed_changes.append(du)
+        followed.append(da)
+        left.append(residual)
     damping = []
     for du in span.T:
         residual, _, acceleration = _change(state, response, f, zero, du)
         da = _follow(state, jacobian, acceleration)
         damping.append(span.T @ (residual + mass @ da))
+        followed.append(da)
+        left.append(residual)
     columns = np.array(speed_changes).reshape(-1, len(zero)).T
     m, k = span.shape[1], directions.shape[1]
     stiff, damped = np.array(stiffness).reshape(k, m).T, np.array(damping).reshape(m, m).T
-    return Variations(span, span.T @ mass @ span, directions, stiff, damped, columns)
+    changes = [np.array(part).reshape(-1, len(zero)).T for part in (followed, left)]
+    return Variations(span, span.T @ mass @ span, directions, stiff, damped, columns, *changes)

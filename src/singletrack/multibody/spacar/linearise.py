@@ -19,7 +19,7 @@ from scipy import linalg
 from singletrack.arrays import Array
 from singletrack.errors import ModelError
 from singletrack.multibody.spacar.evaluate import inertia, strains, vary
-from singletrack.multibody.spacar.rows import Rows, Solver, names
+from singletrack.multibody.spacar.rows import Rows, names, solver_at
 from singletrack.multibody.spacar.springs import spring_tangent
 
 if TYPE_CHECKING:
@@ -158,7 +158,8 @@ def small_motions(rows: Rows, motion: Motion, factor: float = 1.0, *, massless: 
     rows = _freed(rows)
     layout, state = rows.layout, motion.state
     _, matrix = strains(layout, state.x)
-    solver = Solver(rows, matrix)
+    solver = solver_at(rows, matrix)
+    rows = solver.rows
     transfer = solver.transfer()
     z, kinematic, known = _configurations(rows, matrix)
     mass, _ = inertia(layout, state.x, state.v)

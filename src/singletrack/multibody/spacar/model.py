@@ -15,7 +15,7 @@ from singletrack.multibody.spacar.evaluate import strains
 from singletrack.multibody.spacar.layout import Layout, lay_out
 from singletrack.multibody.spacar.linearise import SmallMotions, small_motions
 from singletrack.multibody.spacar.listing import listing
-from singletrack.multibody.spacar.rows import Rows, Solver, choose, names
+from singletrack.multibody.spacar.rows import Rows, choose, names, solver_at
 from singletrack.multibody.spacar.simulate import simulate
 from singletrack.multibody.spacar.state import Motion, State, accelerate, configure, prescribed, rates
 from singletrack.multibody.spacar.statements import MOST_CHARACTERS, Source, parse, write
@@ -135,8 +135,8 @@ class Spacar:
                 target[index[key]] = values[1]
         for key, value in (ed or {}).items():
             moving_e[self._dynamic(key, ("dynamic",))] = value
-        solver = Solver(rows, strains(layout, place.x)[1])
-        v = rates(rows, solver, time, rows.generalised(moving_e, moving_x))
+        solver = solver_at(rows, strains(layout, place.x)[1])
+        v = rates(solver, time, rows.generalised(moving_e, moving_x))
         return replace(place, v=v, time=time)
 
     def _reach(self, of_e: Array, of_x: Array, e_given: Array, x_given: Array) -> State:

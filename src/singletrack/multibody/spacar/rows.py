@@ -17,7 +17,7 @@ from singletrack.arrays import Array
 from singletrack.errors import ModelError
 from singletrack.multibody.spacar.layout import Layout
 
-__all__ = ["Rows", "Solver", "choose"]
+__all__ = ["Rows", "Solver", "choose", "names", "solver_at"]
 
 RANK = 1e-9
 SINGULAR = 1e-13
@@ -136,6 +136,24 @@ class Solver:
             target[index] = multipliers[start : start + len(index)]
             start += len(index)
         return of_e, of_x
+
+
+def solver_at(rows: Rows, of_all: Array) -> Solver:
+    """Return the factored rows at a configuration.
+
+    Where constraints are redundant and those chosen elsewhere have become a bad choice here, others are chosen.
+
+    Raises
+    ------
+    ModelError
+        Where the configuration is singular.
+    """
+    try:
+        return Solver(rows, of_all)
+    except ModelError:
+        if not np.all(np.isfinite(of_all)) or len(rows.constraints) == np.sum(rows.layout.e_is == "fixed"):
+            raise
+    return Solver(choose(rows.layout, of_all), of_all)
 
 
 def choose(layout: Layout, of_all: Array) -> Rows:

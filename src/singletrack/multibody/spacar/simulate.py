@@ -10,12 +10,13 @@ from scipy import integrate, linalg
 
 from singletrack.errors import ModelError
 from singletrack.multibody.spacar.evaluate import strains
-from singletrack.multibody.spacar.rows import Solver
+from singletrack.multibody.spacar.linearise import small_motions
+from singletrack.multibody.spacar.rows import solver_at
 from singletrack.multibody.spacar.state import State, accelerate, prescribed, rates, unwrapped
 
 if TYPE_CHECKING:
     from singletrack.arrays import Array
-    from singletrack.multibody.spacar.rows import Rows
+    from singletrack.multibody.spacar.rows import Rows, Solver
     from singletrack.multibody.spacar.state import Motion
 
 __all__ = ["simulate"]
@@ -46,8 +47,8 @@ class _Equations:
         e, matrix = strains(self.layout, x)
         near = np.zeros_like(e)
         near[self.layout.angles] = y[self.u : self.u + self.k]
-        solver = Solver(self.rows, matrix)
-        v = rates(self.rows, solver, time, y[self.u + self.k :])
+        solver = solver_at(self.rows, matrix)
+        v = rates(solver, time, y[self.u + self.k :])
         return State(time, x, v, unwrapped(self.layout, e, near)), solver, matrix
 
     def slope(self, time: float, y: Array) -> Array:
@@ -148,8 +149,6 @@ def _at(equations: _Equations, time: float, y: Array) -> Motion:
 
 def _stiff(equations: _Equations, start: State, times: Array) -> bool:
     """Tell whether elastic frequencies would force an explicit method to steps far shorter than those asked for."""
-    from singletrack.multibody.spacar.linearise import small_motions
-
     if not equations.rows.freedoms or not (np.any(equations.layout.elastic) or np.any(equations.layout.viscous)):
         return False
     fastest = float(

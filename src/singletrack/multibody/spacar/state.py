@@ -11,7 +11,7 @@ from scipy import linalg
 from singletrack.arrays import Array
 from singletrack.errors import ModelError
 from singletrack.multibody.spacar.evaluate import convective_rates, inertia, load, strains
-from singletrack.multibody.spacar.rows import Rows, Solver
+from singletrack.multibody.spacar.rows import Rows, Solver, solver_at
 from singletrack.multibody.spacar.springs import spring_stresses
 
 if TYPE_CHECKING:
@@ -145,8 +145,9 @@ def _worst(layout: Layout, index: Array, miss: Array) -> str:
     return f"deformation {keys[worst][1]} of element {keys[worst][0]}"
 
 
-def rates(rows: Rows, solver: Solver, time: float, generalised: Array) -> Array:
+def rates(solver: Solver, time: float, generalised: Array) -> Array:
     """Return the rates of all coordinates (n,) of generalised rates (q,)."""
+    rows = solver.rows
     right = rows.stack(*prescribed(rows.layout, time, 1))
     if rows.freedoms:
         right[-rows.freedoms :] = generalised
@@ -175,7 +176,8 @@ def accelerate(
     layout = rows.layout
     if solver is None or matrix is None:
         _, matrix = strains(layout, state.x)
-        solver = Solver(rows, matrix)
+        solver = solver_at(rows, matrix)
+    rows = solver.rows
     transfer = solver.transfer()
     mass, convective = inertia(layout, state.x, state.v)
     c = convective_rates(layout, state.x, state.v)

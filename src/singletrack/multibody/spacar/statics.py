@@ -16,7 +16,7 @@ from singletrack.arrays import Array
 from singletrack.errors import ModelError
 from singletrack.multibody.spacar.evaluate import inertia, load, strains
 from singletrack.multibody.spacar.linearise import small_motions
-from singletrack.multibody.spacar.rows import Solver
+from singletrack.multibody.spacar.rows import solver_at
 from singletrack.multibody.spacar.springs import spring_stresses, spring_tangent
 from singletrack.multibody.spacar.state import Motion, State, configure
 
@@ -46,7 +46,8 @@ def held(rows: Rows, state: State, factor: float = 1.0) -> tuple[Motion, Array]:
     layout = rows.layout
     still = replace(state, v=np.zeros_like(state.x))
     _, matrix = strains(layout, still.x)
-    solver = Solver(rows, matrix)
+    solver = solver_at(rows, matrix)
+    rows = solver.rows
     _, weight = inertia(layout, still.x, still.v)
     stress = spring_stresses(layout, still.e)
     total = weight - load(layout, still.x, factor) + matrix.T @ stress
@@ -182,7 +183,7 @@ def buckling(rows: Rows, start: State) -> Buckling:
     # The stresses of springs follow from the small displacements under the loads; constraints balance the rest.
     layout = rows.layout
     _, matrix = strains(layout, start.x)
-    solver = Solver(rows, matrix)
+    solver = solver_at(rows, matrix)
     stress = spring_tangent(layout, start.e) @ (matrix @ (solver.transfer() @ displaced))
     total = load(layout, start.x, 0.0) - load(layout, start.x, 1.0) + matrix.T @ stress
     of_e, _ = solver.balance(total)
