@@ -95,8 +95,8 @@ def _sentences(cases: dict[str, Case]) -> list[Statement]:
     return [
         Statement(
             "4",
-            "Spring (100 N m/rad) and damper (10 N m s/rad) at the lean hinge move the loss of the unstable mode by steer "
-            "torque to a much lower speed",
+            "Spring (100 N m/rad) and damper (10 N m s/rad) at the lean hinge move the loss of the unstable mode by "
+            "steer torque to a much lower speed",
             f"{unstable[1][0].speed:.4f} m/s ({unstable[1][0].mode}), from {unstable[0][0].speed:.4f} m/s"
             if lower
             else "-",
@@ -130,7 +130,7 @@ def _calm(case: Case) -> Statement:
     return Statement(
         "4",
         "They make the lean modes stable and oscillatory",
-        f"beside weave one pair oscillates and dies out, {others[0][pair[0]][0]:.2f} 1/s at rest, up to {first:.2f} m/s",
+        f"beside weave one pair dies out, {others[0][pair[0]][0]:.2f} 1/s at rest, up to {first:.2f} m/s",
         share == 1.0,
         "Above, the pair grows slowly: it is there what capsize is without the hinge.",
         partly=share > 0.5,
