@@ -38,6 +38,8 @@ COMMANDS = {
     "convert": "Read a bicycle or rider in any format and write it in another.",
     "measure": "Turn pendulum periods, hanging angles and lengths into parameters with uncertainties.",
     "period": "Fit a decaying oscillation to a recorded signal and print its period with its uncertainty.",
+    "control": "Print where inputs lose modes, how well they reach them, and what riding costs.",
+    "identify": "Find the eigenvalue of the oscillation in recorded rates, with its deviation, beside the model's.",
     "page": "Write a page with sliders and a rider in motion, and open it in the browser.",
     "spacar": "Run a file of SPACAR: motion, small motions, equilibrium, buckling; rigid and flexible.",
     "sweep": "Compute many designs as a study file says; interrupted, the same command goes on.",
