@@ -112,6 +112,6 @@ def figure_bytes(figure: Figure, kind: str, dots: float | None = None) -> bytes:
         if engine is not None:
             engine.execute(figure)
             figure.set_layout_engine(None)  # laid out once, the same for every kind of file
-        resolution = {} if dots is None else {"dpi": dots}
+        resolution: Any = {} if dots is None else {"dpi": dots}
         figure.savefig(content, format=kind, metadata=_METADATA[kind], **resolution)
     return content.getvalue()
