@@ -82,6 +82,18 @@ def test_shipped_models_are_named_as_by_the_exact_meetings(combination):
     np.testing.assert_array_equal(general.applies, exact.applies)
 
 
+@pytest.mark.parametrize("seed", [3, 4])
+def test_anything_of_two_freedoms_is_named_as_by_the_exact_meetings(seed):
+    """Matrices with the zeros that a bicycle's have, else anything: several meetings, two pairs that pass."""
+    model = random_model(2, 400, seed, damped=False)
+    C1 = model.C1.copy()
+    C1[:, 0, 0] = 0.0
+    model = replace(model, K2=model.K2 * [0.0, 1.0], C1=C1)
+    speeds = np.linspace(0.05, 12.0, 60)
+    general, exact = _of_any_freedoms(model, speeds), modes(model, speeds)
+    np.testing.assert_allclose(general.eigenvalues, exact.eigenvalues, rtol=1e-6, atol=1e-6)
+
+
 @pytest.mark.parametrize("n", [2, 3, 4])
 def test_roots_stay_in_their_discs(n):
     """What the proof says: at any speed of an interval each disc holds as many roots as at any other."""

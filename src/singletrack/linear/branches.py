@@ -178,12 +178,36 @@ def _apart(b: Branches) -> np.ndarray:
 
 
 def _changes(p: Pencil, b: Branches) -> np.ndarray:
-    """Return how many blocks of two are real at one end of each interval (r,) and a pair at the other."""
-    ends = np.stack([b.low, b.high], axis=-1)
-    roots = np.sort_complex(np.linalg.eigvals(p.state(ends)))
-    one, other = (places(b, roots[:, k], ends[:, k]) for k in (0, 1))
-    changed: np.ndarray = ((one.imag == 0) != (other.imag == 0)).sum(axis=-1) // 2
-    return changed
+    """Return how often a block of two in each interval (r,) turns from real roots to a pair or back.
+
+    Beside both ends and the middle it is looked at where the square of the difference of its roots, which changes
+    nearly as a parabola, is extreme: there two real roots may be a pair for a short while.
+    """
+    half = (b.high - b.low) / 2
+    speeds = np.stack([b.low, b.low + half, b.high], axis=-1)
+    found = [_placed(p, b, speeds[:, k]) for k in range(3)]
+    first = np.roll(b.block, -1, axis=-1) == b.block  # the first of two
+    low, middle, high = (np.where(first, (roots - np.roll(roots, -1, axis=-1)) ** 2, 0.0).real for roots in found)
+    bend, slope = (low - 2 * middle + high) / 2, (high - low) / 2
+    with np.errstate(divide="ignore", invalid="ignore"):
+        extreme = -slope / (2 * bend)
+        value = middle + slope * extreme / 2
+    inside = first & (np.abs(extreme) < 1) & (np.sign(low) == np.sign(high))
+    # Of several blocks the one whose extreme is nearest to, or farthest beyond, a meeting.
+    nearest = np.argmin(np.where(inside, value * np.sign(low), np.inf), axis=-1)
+    row = np.flatnonzero(inside.any(axis=-1))
+    t = np.take_along_axis(extreme, nearest[:, None], axis=-1)[row, 0]
+    between = found[1].copy()
+    between[row] = _placed(p.rows(row), b.rows(row), b.low[row] + half[row] * (1 + t))
+    real = np.stack([found[0].imag == 0, between.imag == 0, found[1].imag == 0, found[2].imag == 0])
+    steps = (real[0] != real[2]).astype(int) + (real[2] != real[3]) + 2 * ((real[0] == real[3]) & (real[1] != real[0]))
+    changes: np.ndarray = np.where(first, steps, 0).sum(axis=-1)
+    return changes
+
+
+def _placed(p: Pencil, b: Branches, v: np.ndarray) -> np.ndarray:
+    """Return the roots (r, N) at speeds (r,) in their places."""
+    return places(b, np.sort_complex(np.linalg.eigvals(p.state(v[:, None])))[:, 0], v)
 
 
 def places(b: Branches, roots: np.ndarray, v: np.ndarray) -> np.ndarray:

@@ -234,9 +234,9 @@ def _last_four(roots: np.ndarray) -> np.ndarray:
     columns[place == capsize[:, None]], columns[place == castering[:, None]] = _CAPSIZE, _CASTERING
     rest = np.argsort(columns >= 0, axis=-1, kind="stable")[:, :2]
     np.put_along_axis(columns, rest, np.broadcast_to(_WEAVE, rest.shape), axis=-1)
-    # Two pairs: the one that decays faster has the names of the real roots.
-    lower_first = roots[:, 0].real <= roots[:, 2].real
-    two_pairs = np.where(lower_first[:, None], [_CASTERING, _CAPSIZE, *_WEAVE], [*_WEAVE, _CASTERING, _CAPSIZE])
+    # Two pairs: the slower one has the names of the real roots, which it has yet to become.
+    falls = roots[:, :1].real < 0  # castering, the faster one, is the lower then
+    two_pairs = np.where(falls, [_CASTERING, _CAPSIZE, *_WEAVE], [_CAPSIZE, _CASTERING, *_WEAVE])
     result: np.ndarray = np.where((real == 0)[:, None], two_pairs, columns)
     return result
 

@@ -21,7 +21,7 @@ _GENERAL, _REAR_WHEEL, _REAR_FRAME = "bicycle", "rear wheel", "rear frame (body 
 _FRONT_FRAME, _FRONT_WHEEL = "front frame (handlebar and fork assembly)", "front wheel"
 _GRIPS = "grips (where they are not level with the stem top, as wide as the shoulders)"
 _TYRES = "tyres (knife edges where no radius is given)"
-_SOFT = "soft frame and fork (rigid where no stiffness is given)"
+_SOFT = "soft frame and fork (rigid without stiffness; hinges by default at the fork's crown)"
 _GEOMETRY = "frame geometry (needed to seat a rider)"
 
 

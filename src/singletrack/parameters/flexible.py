@@ -49,14 +49,15 @@ def soft_hinges(bicycle: Bicycle) -> tuple[SoftHinge, ...]:
     Parameters
     ----------
     bicycle : Bicycle
-        A hinge without a tilt of its own is perpendicular to the steer axis.
+        A hinge without a place of its own goes through the steer axis at the fork's crown, a wheel's radius above the
+        hub; one without a tilt of its own is perpendicular to the steer axis.
 
     Examples
     --------
     >>> from singletrack import load_bicycle
-    >>> soft = load_bicycle("benchmark").replace(fork_bending_stiffness=2e3, fork_hinge_x=1.0, fork_hinge_z=-0.7)
-    >>> [hinge.name for hinge in soft_hinges(soft)], soft_hinges(load_bicycle("benchmark"))
-    (['fork bending'], ())
+    >>> (hinge,) = soft_hinges(load_bicycle("benchmark").replace(fork_bending_stiffness=2e3))
+    >>> hinge.name, hinge.point.round(3).tolist(), soft_hinges(load_bicycle("benchmark"))
+    ('fork bending', [0.881, 0.0, -0.673], ())
     """
     hinges = []
     for name, (what, where) in _PARTS.items():
@@ -65,25 +66,35 @@ def soft_hinges(bicycle: Bicycle) -> tuple[SoftHinge, ...]:
             continue
         tilt = getattr(bicycle, f"{where}_tilt")
         xp, (angle,) = as_arrays(bicycle.steer_axis_tilt if tilt is None else tilt)
-        point = vector(getattr(bicycle, f"{where}_x"), 0.0, getattr(bicycle, f"{where}_z"))
+        x, z = getattr(bicycle, f"{where}_x"), getattr(bicycle, f"{where}_z")
+        point = _crown(bicycle) if x is None else vector(x, 0.0, z)
         damping = getattr(bicycle, f"{what}_damping")
         axis = vector(xp.cos(angle), 0.0, -xp.sin(angle))
         hinges.append(SoftHinge(name, point, axis, stiffness, 0.0 if damping is None else damping))
     return tuple(hinges)
 
 
+def _crown(bicycle: Bicycle) -> Array:
+    """Return the point of the steer axis that lies a wheel's radius above the point nearest to the front hub."""
+    xp, (tilt, trail, radius) = as_arrays(bicycle.steer_axis_tilt, bicycle.trail, bicycle.front_wheel_radius)
+    sin, cos = xp.sin(tilt), xp.cos(tilt)
+    above = trail * sin + radius * cos + radius
+    return vector(bicycle.wheel_base + trail - above * sin, 0.0, -above * cos)
+
+
 def hinge_faults(bicycle: Bicycle) -> Iterator[Fault]:
-    """Yield a fault for each stiffness without a place for its hinge.
+    """Yield a fault for each soft hinge of which only one coordinate is given.
 
     Parameters
     ----------
     bicycle : Bicycle
     """
     for what, where in _PARTS.values():
-        for axis in "xz":
-            if getattr(bicycle, f"{what}_stiffness") is not None and getattr(bicycle, f"{where}_{axis}") is None:
+        if getattr(bicycle, f"{what}_stiffness") is None:
+            continue
+        for axis, other in ("xz", "zx"):
+            if getattr(bicycle, f"{where}_{axis}") is None and getattr(bicycle, f"{where}_{other}") is not None:
                 import numpy as np
 
-                text = f"{what}_stiffness needs {where}_x and {where}_z, a point of the hinge's axis"
+                text = f"{where}_{other} needs {where}_{axis} too: both, or none for the fork's crown"
                 yield Fault(np.ones((), dtype=bool), text, {}, InputError, (f"{where}_{axis}",), "a finite number in m")
-                break

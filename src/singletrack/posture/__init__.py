@@ -6,7 +6,7 @@ from singletrack.posture.mechanism import HANDLEBAR, Mechanism
 from singletrack.posture.options import ARMS, POSTURES, SHOULDERS, STEER, Options, input_name
 from singletrack.posture.residual import loop_residual
 from singletrack.posture.seated import Joint, Loop, Posture, seat, steer_axis
-from singletrack.posture.shipped import TORSO_LEAN, load_posture, mechanism_of, named_posture
+from singletrack.posture.shipped import TORSO_LEAN, is_posture, load_posture, mechanism_of, named_posture
 from singletrack.posture.steered import moved_skeleton, steered_skeleton
 
 __all__ = [
@@ -24,6 +24,7 @@ __all__ = [
     "SlavedBodies",
     "SlavedMass",
     "input_name",
+    "is_posture",
     "load_posture",
     "loop_residual",
     "mechanism_of",
