@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 __all__ = ["Frame", "Wrench", "forward", "inverse", "rotation_about"]
 
-SX: TypeAlias = Any
+SX: TypeAlias = ca.SX
 DOWN = ca.SX([0, 0, 1])
 
 
