@@ -8,7 +8,7 @@ machine far from the origin loses no digits.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
 
 import casadi as ca
 
