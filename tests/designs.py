@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from singletrack import coefficients, load_bicycle, load_rider
 
 if TYPE_CHECKING:
+    import numpy as np
+
     from singletrack import Bicycle, CoefficientMatrices
 
 #: Every shipped combination of bicycle, rider and posture; None: without rider.
