@@ -66,7 +66,17 @@ def random_designs(count, seed):
             more |= {"upper_arm_length": (0.0, 0.15), "lower_arm_length": (0.0, 0.15)}
             changed |= {n: float(own.values()[n] * (1 + random.uniform(*ends))) for n, ends in more.items()}
         speed = float(random.uniform(0.2, 10))
-        changes = [{"bicycle": name, "rider": who, "posture": posture, **(options or {}), **changed, "speed": speed}]
+        changes = [
+            {
+                "bicycle": name,
+                "rider": who,
+                "torso_lean": False,
+                "posture": posture,
+                **(options or {}),
+                **changed,
+                "speed": speed,
+            }
+        ]
         riders = {n: v for n, v in changed.items() if n in own.values()}
         person = own.replace(**riders) if who else None
         try:
@@ -81,6 +91,9 @@ WAYS = [
     ("rider-a", "leaned", {"arms": "straight"}),
     ("rider-a", "leaned", {"arms": "bent"}),
     ("rider-a", "upright", None),
+    ("rider-a", "rigid", {"torso_lean": True}),
+    ("rider-a", "leaned", {"arms": "straight", "torso_lean": True}),
+    ("rider-a", "upright", {"torso_lean": True}),
 ]
 
 
