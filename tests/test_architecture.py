@@ -44,14 +44,6 @@ DOORS = {
     ("singletrack.linear.quartic.solve", "singletrack.linear.quartic.compiled"): "needs numba",
     ("singletrack.sweep.reading", "singletrack.sweep.checked_zarr"): "needs zarr",
 }
-#: Modules and functions that are longer than they should be; this only shrinks.
-TOO_LONG = {
-    "multibody/bicycle/model.py",
-    "multibody/engine/connections.py",
-    "multibody/engine/elements.py",
-    "multibody/engine/linearise.py",
-    "reproduce/statements/founding.py",
-}
 
 
 def name_of(path: Path) -> str:
@@ -129,10 +121,7 @@ def test_present_computes_nothing():
             assert not rooms & set(COMPUTING), (path.name, ast.unparse(statement))
 
 
-SHORT = [path for path in PATHS if path.relative_to(SOURCE).as_posix() not in TOO_LONG]
-
-
-@pytest.mark.parametrize("path", SHORT, ids=lambda path: path.relative_to(SOURCE).as_posix())
+@pytest.mark.parametrize("path", PATHS, ids=lambda path: path.relative_to(SOURCE).as_posix())
 def test_nothing_needs_scrolling(path):
     assert len(path.read_text(encoding="utf-8").splitlines()) <= 300
     for node in ast.walk(TREES[path]):
