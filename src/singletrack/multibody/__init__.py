@@ -28,6 +28,7 @@ from singletrack.multibody.engine.joints import (
     spherical,
     universal,
 )
+from singletrack.multibody.engine.kept import compile_equations
 from singletrack.multibody.engine.limits import Limit, Reach
 from singletrack.multibody.engine.linearise import Linearisation, linearise
 from singletrack.multibody.engine.model import Model, State, build
@@ -82,6 +83,7 @@ __all__ = [
     "close_joint",
     "close_point",
     "coefficients",
+    "compile_equations",
     "cylindrical",
     "driving_forces",
     "fixed",
