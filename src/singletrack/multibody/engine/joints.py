@@ -73,7 +73,7 @@ def revolute(name: str, parent: str, child: str, point: Vector, axis: Vector, **
     name : str
         Of the joint.
     parent, child : str
-        Names of the bodies it connects; the ground is :data:`GROUND`. A body is the child of at most one joint.
+        Names of the bodies it connects; the ground is ``ground``. A body is the child of at most one joint.
     point, axis : three numbers or parameters
         A point of the joint in m, and a direction of any length, in the drawing.
     **law
@@ -190,7 +190,7 @@ def free(
     With the default axes the turns are yaw, lean and pitch; for ``quaternion`` see :func:`spherical`. Arguments as for
     :func:`revolute`, with three axes.
 
-    >>> free("frame", GROUND, "rear frame").coordinates
+    >>> free("frame", "ground", "rear frame").coordinates
     ('frame.x', 'frame.y', 'frame.z', 'frame.1', 'frame.2', 'frame.3')
     """
     slides = [(f"{name}.{part}", axis) for part, axis in zip("xyz", (X, Y, Z), strict=True)]
