@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar
 
 from singletrack.arrays import Array
-from singletrack.parameters.flexible import hinge_faults
+from singletrack.parameters.hinge_rules import hinge_faults
 from singletrack.parameters.inertia_rules import FLATNESS_TOLERANCE, inertia_faults, skate_faults, tyre_faults
 from singletrack.parameters.record import Record, parameter
 
@@ -21,7 +21,7 @@ _GENERAL, _REAR_WHEEL, _REAR_FRAME = "bicycle", "rear wheel", "rear frame (body 
 _FRONT_FRAME, _FRONT_WHEEL = "front frame (handlebar and fork assembly)", "front wheel"
 _GRIPS = "grips (where they are not level with the stem top, as wide as the shoulders)"
 _TYRES = "tyres (knife edges where no radius is given)"
-_SOFT = "soft frame and fork (rigid where no stiffness is given)"
+_SOFT = "soft frame and fork (rigid without stiffness; hinges by default at the fork's crown)"
 _GEOMETRY = "frame geometry (needed to seat a rider)"
 
 

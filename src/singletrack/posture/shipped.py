@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from singletrack.errors import InputError, unknown_name
+from singletrack.files.registry import format_of
 from singletrack.files.source import read_text
 from singletrack.library import shipped
 from singletrack.posture.mechanism import FRAME, Direction, JointPlan, LoopPlan, Mechanism, Place
@@ -19,7 +20,7 @@ if TYPE_CHECKING:
 
     from singletrack.arrays import Array
 
-__all__ = ["TORSO_LEAN", "load_posture", "mechanism_of", "named_posture"]
+__all__ = ["TORSO_LEAN", "is_posture", "load_posture", "mechanism_of", "named_posture"]
 
 #: The hinge along x at the hips of the journal version (2012), under all of the upper body.
 TORSO_LEAN = "torso lean"
@@ -62,6 +63,22 @@ def load_posture(name_or_path: str | Path) -> Mechanism:
         known = dict.fromkeys([*POSTURES, *(name for name in shipped("posture") if name not in _variant_files())])
         raise InputError(f"{unknown_name('posture', name[:200], known)}, and there is no such file")
     return parse_mechanism(read_text(path), str(path))
+
+
+def is_posture(name_or_path: str | Path) -> bool:
+    """Tell whether a name is a shipped posture's, or a file is a mechanism by what it says.
+
+    >>> is_posture("upright"), is_posture("stratos")
+    (True, False)
+    """
+    name = str(name_or_path)
+    if name in POSTURES or name in shipped("posture"):
+        return True
+    try:
+        path = Path(name_or_path)
+        return path.is_file() and format_of(read_text(path), name).name == "posture"
+    except (InputError, OSError, ValueError):
+        return False
 
 
 def named_posture(found: str | Path | Mechanism) -> str | Mechanism:

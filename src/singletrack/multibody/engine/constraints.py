@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import casadi as ca
 
-from singletrack.multibody.engine.kinematics import DOWN, SX, Wrench, column, slices, unit
+from singletrack.multibody.engine.kinematics import DOWN, SX, Wrench, column, coordinates_by_joint, unit
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -32,7 +32,7 @@ def closure_residual(closure: Closure, frames: Mapping[str, Frame]) -> SX:
     first, second = frames[closure.first], frames[closure.second]
     apart = second.point(column(closure.second_point)) - first.point(column(closure.first_point))
     if closure.length is not None:
-        return ca.norm_2(apart) - closure.length
+        return ca.norm_2(apart) - ca.SX(closure.length)
     rows = [ca.dot(first.rotation @ column(direction), apart) for direction in closure.directions]
     rows += [ca.dot(first.rotation @ column(one), second.rotation @ column(other)) for one, other in closure.orthogonal]
     return ca.vertcat(*rows)
@@ -103,7 +103,7 @@ def wheel_contact(wheel: Wheel, frames: Mapping[str, Frame]) -> Contact:
 
 def _quaternions(system: System, q: SX) -> list[SX]:
     """Return the coordinates of every quaternion (each less one in its first component)."""
-    place = slices(system)
+    place = coordinates_by_joint(system)
     return [q[place[joint.name]][-4:] for joint in system.joints if joint.quaternion]
 
 

@@ -17,7 +17,7 @@ __all__ = ["Variation", "convective_rates", "inertia", "load", "strains", "vary"
 
 
 def _scatter(matrix: Array, rows: Array, columns: Array, blocks: Array) -> None:
-    """Add blocks (n, r, c) at rows (n, r) and columns (n, c)."""
+    """Add blocks (n, r, c) at rows (n, r) and columns (n, c); an element may name a node twice."""
     np.add.at(matrix, (rows[:, :, None], columns[:, None, :]), blocks)
 
 
@@ -27,7 +27,7 @@ def strains(layout: Layout, x: Array) -> tuple[Array, Array]:
     for group in layout.groups:
         values, blocks = per_element("strain", group.kind, "value", x[group.x], group.p)
         e[group.e[:, : values.shape[1]]] = values[:, :, 0]
-        rows[group.e[:, :, None], group.x[:, None, :]] = blocks
+        _scatter(rows, group.e, group.x, blocks)
     return e, rows
 
 
@@ -97,7 +97,7 @@ def vary(layout: Layout, x: Array, v: Array, a: Array, s: Array, factor: float =
     for group in layout.groups:
         parts = per_element("strain", group.kind, "vary", x[group.x], group.p, v[group.x], a[group.x], s[group.e])
         for matrix, part in zip((rates, by_x, by_v), parts, strict=False):
-            matrix[group.e[:, :, None], group.x[:, None, :]] = part
+            _scatter(matrix, group.e, group.x, part)
         _scatter(forces_x, group.x, group.x, parts[3])
     for group in layout.masses:
         parts = per_element("mass", group.kind, "vary", x[group.x], group.p, v[group.x], a[group.x])

@@ -81,12 +81,13 @@ def add_force(reader: Reader) -> None:
     """FORCE, XF: a constant force or moment on a node."""
     d = reader.description
     node, values = reader.node(), reader.numbers[1:]
-    allowed = {"p2": (2,), "o2": (1,), "p3": (3,), "o3": (3, 4)}[d.nodes[node]]
+    kind, width = d.nodes[node], d.width(node)
+    # Components that are left away are zero, but for orientations in space, where their number tells what is meant.
+    allowed = (3, 4) if kind == "o3" else tuple(range(1, width + 1))
     if len(values) not in allowed:
         wanted = " or ".join(map(str, allowed))
-        raise reader.refuse(
-            f"node {node} is {NODES[d.nodes[node]]}, must have {wanted} components; found {len(values)}"
-        )
+        raise reader.refuse(f"node {node} is {NODES[kind]}, must have {wanted} components; found {len(values)}")
+    values += (0.0,) * (width - len(values)) if kind != "o3" else ()
     d.forces[node] = values
 
 
