@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from conftest import random_bicycle
+from designs import random_bicycle
 from linear.random_models import random_model
 from linear.torso import with_torso
 from singletrack import InputError, coefficients, load_bicycle, load_rider

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import io
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import scipy.linalg
 
 from singletrack.errors import InputError, unknown_name
+from singletrack.output import write_whole
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -198,11 +200,7 @@ def save_mat(system: StateSpace, path: str | Path) -> None:
     InputError
         If the file cannot be written.
     """
-    import io
-
     import scipy.io
-
-    from singletrack.output import write_whole
 
     content = io.BytesIO()
     matrices = {name: np.moveaxis(np.asarray(getattr(system, name)), (-2, -1), (0, 1)) for name in "ABCD"}

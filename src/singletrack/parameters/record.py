@@ -8,6 +8,8 @@ from dataclasses import dataclass, field
 from math import inf
 from typing import TYPE_CHECKING, Any, ClassVar, Self
 
+import numpy as np
+
 from singletrack.arrays import Array, is_concrete
 from singletrack.arrays.faults import Fault, refuse_single
 from singletrack.errors import InputError, SingletrackError
@@ -109,8 +111,6 @@ class Record:
         """Return what is wrong with the values, with a mask over the batch each; sound numbers have no faults."""
         if self.is_single:
             return tuple(self._faults())
-        import numpy as np
-
         # Numbers near the largest double overflow on the way to being refused.
         with np.errstate(over="ignore", invalid="ignore"):
             return tuple(self._faults())
@@ -225,8 +225,6 @@ def _take_values(record: Record) -> None:
 
 
 def _common_shape(name: str, shapes: dict[str, tuple[int, ...]]) -> tuple[int, ...]:
-    import numpy as np
-
     try:
         return np.broadcast_shapes(*shapes.values())
     except ValueError:

@@ -12,7 +12,7 @@ follows from it (docs/theory.md, with X as in :mod:`singletrack.posture.twists` 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -20,11 +20,9 @@ import numpy as np
 from singletrack.arrays import Array, as_arrays, is_concrete, stack
 from singletrack.arrays.faults import Fault, refuse_single
 from singletrack.errors import PostureError
-from singletrack.parameters.flexible import FRAME_TORSION, soft_hinges
 from singletrack.posture.laws import laws_of
-from singletrack.posture.mechanism import HANDLEBAR
 from singletrack.posture.motion import rider_motion
-from singletrack.posture.seated import Joint
+from singletrack.posture.segment_motion import carried_by_soft_frame
 from singletrack.posture.twists import Motion, cross3, designs_last, dot3, summed
 
 if TYPE_CHECKING:
@@ -32,7 +30,7 @@ if TYPE_CHECKING:
     from singletrack.parameters import Bicycle
     from singletrack.posture.seated import Posture
 
-__all__ = ["SlavedBodies", "SlavedMass", "slaved_bodies", "slaved_mass"]
+__all__ = ["SlavedMass", "slaved_mass"]
 
 #: A free joint whose inertia is less than this share of what its segments have about the rear contact moves no mass.
 _STILL = 1e-12
@@ -111,7 +109,7 @@ def slaved_mass(posture: Posture, bicycle: Bicycle) -> SlavedMass:
     faults = posture.skeleton.faults + posture.faults
     if not posture.joints:
         return SlavedMass(**whole, faults=faults)
-    posture = _carried_by_soft_frame(posture, bicycle)
+    posture = carried_by_soft_frame(posture, bicycle)
     motion, tree = rider_motion(posture, bicycle, shape), posture.tree
     moving = tree.moving
     beyond = summed(tree.carries[moving].T, rows[:, moving])
@@ -191,77 +189,6 @@ def _momenta(motion: Motion, beyond: Array) -> tuple[Array, Array]:
         -3,
     )
     return mass * twist + cross3(spin, moment), turned + cross3(moment, twist)
-
-
-@dataclass(frozen=True, eq=False)
-class SlavedBodies:
-    """The n segments one by one, with their motion relative to the rear frame along f freedoms, the steer first.
-
-    A segment's centre moves by sum J_i d_i + sum H_ij d_i d_j / 2, its first-order rotation is sum w_i d_i. The p pairs
-    of freedoms are (0, 0), (0, 1), ..., (1, 1), ...
-
-    Attributes
-    ----------
-    mass : array, shape (..., n)
-        In kg.
-    centre : array, shape (..., n, 3)
-        At rest, in m, in the bicycle's frame.
-    inertia : array, shape (..., n, 3, 3)
-        About the centre, in kg m^2.
-    rotation : array, shape (..., f, n, 3)
-        w, in rad per rad.
-    displacement : array, shape (..., f, n, 3)
-        J, in m per rad.
-    curvature : array, shape (..., p, n, 3)
-        H, in m per rad^2.
-    """
-
-    mass: Array
-    centre: Array
-    inertia: Array
-    rotation: Array
-    displacement: Array
-    curvature: Array
-
-
-def slaved_bodies(posture: Posture, bicycle: Bicycle) -> SlavedBodies:
-    """Return the rider's segments one by one, with their motion.
-
-    Parameters and errors as for :func:`slaved_mass`, which has what the equations of a rigid bicycle need.
-
-    Examples
-    --------
-    >>> from singletrack import load_bicycle, load_rider
-    >>> from singletrack.posture import seat
-    >>> bicycle = load_bicycle("browser")
-    >>> slaved_bodies(seat(bicycle, load_rider("rider-a"), "upright"), bicycle).displacement.shape
-    (1, 10, 3)
-    """
-    segments = list(posture.segments.values())
-    mass = stack([body.mass for body in segments], -1)
-    centre = stack([body.centre for body in segments], -2)
-    inertia = stack([body.inertia for body in segments], -3)
-    if not posture.joints:
-        still = np.zeros((1, len(segments), 3))
-        return SlavedBodies(mass, centre, inertia, still, still, still)
-    posture = _carried_by_soft_frame(posture, bicycle)
-    motion, carries = rider_motion(posture, bicycle), posture.tree.carries
-    xp, (points,) = designs_last([centre], motion.shape)
-    rotation, displacement = motion.first(carries, points)
-    curvature = motion.second(carries, points)
-
-    def by_design(values: Array) -> Array:
-        return xp.moveaxis(values.reshape(*values.shape[:3], *motion.shape), (0, 1, 2), (-1, -2, -3))
-
-    return SlavedBodies(mass, centre, inertia, by_design(rotation), by_design(displacement), by_design(curvature))
-
-
-def _carried_by_soft_frame(posture: Posture, bicycle: Bicycle) -> Posture:
-    """Return a posture in which the twist of a soft frame is one more free joint, that which carries the handlebar."""
-    hinge = next((hinge for hinge in soft_hinges(bicycle) if hinge.name == FRAME_TORSION), None)
-    if hinge is None or all(loop.to != HANDLEBAR for loop in posture.loops):
-        return posture
-    return replace(posture, joints=(*posture.joints, Joint(hinge.name, "", hinge.point, hinge.axis, free=True)))
 
 
 def _massless(posture: Posture, inner: list[Array], scale: Array) -> tuple[Fault, ...]:

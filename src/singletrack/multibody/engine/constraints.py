@@ -32,7 +32,7 @@ def closure_residual(closure: Closure, frames: Mapping[str, Frame]) -> SX:
     first, second = frames[closure.first], frames[closure.second]
     apart = second.point(column(closure.second_point)) - first.point(column(closure.first_point))
     if closure.length is not None:
-        return ca.norm_2(apart) - closure.length
+        return ca.norm_2(apart) - ca.SX(closure.length)
     rows = [ca.dot(first.rotation @ column(direction), apart) for direction in closure.directions]
     rows += [ca.dot(first.rotation @ column(one), second.rotation @ column(other)) for one, other in closure.orthogonal]
     return ca.vertcat(*rows)

@@ -8,7 +8,7 @@ machine far from the origin loses no digits.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
 
 import casadi as ca
 
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 __all__ = ["Frame", "Wrench", "forward", "inverse", "rotation_about"]
 
-SX: TypeAlias = Any
+SX: TypeAlias = ca.SX
 DOWN = ca.SX([0, 0, 1])
 
 

@@ -15,7 +15,7 @@ from singletrack.multibody.spacar.evaluate import strains
 from singletrack.multibody.spacar.layout import Layout, lay_out
 from singletrack.multibody.spacar.linearise import SmallMotions, small_motions
 from singletrack.multibody.spacar.listing import listing
-from singletrack.multibody.spacar.rows import Rows, choose, names, solver_at
+from singletrack.multibody.spacar.rows import Rows, choose, names_of, solver_at
 from singletrack.multibody.spacar.simulate import simulate
 from singletrack.multibody.spacar.state import Motion, State, accelerate, configure, prescribed, rates
 from singletrack.multibody.spacar.statements import MOST_CHARACTERS, Source, parse, write
@@ -230,7 +230,7 @@ class Spacar:
 
     def listing(self) -> str:
         """Return a text that says what was understood of the file."""
-        return listing(self)
+        return listing(self.layout, self.rows)
 
     def by_element(self, values: Array) -> dict[int, list[float]]:
         """Return values of deformations (m,) by element."""
@@ -244,8 +244,7 @@ class Spacar:
 
     def names(self, kind: str) -> tuple[str, ...]:
         """Return the names of the coordinates and deformations of a kind, such as ``kinematic``."""
-        layout = self.layout
-        return names(layout, np.flatnonzero(layout.x_is == kind), np.flatnonzero(layout.e_is == kind))
+        return names_of(self.layout, kind)
 
 
 def read_text(text: str, where: str = "model", mass: str = "consistent") -> Spacar:

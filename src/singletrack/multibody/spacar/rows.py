@@ -17,7 +17,7 @@ from singletrack.arrays import Array
 from singletrack.errors import ModelError
 from singletrack.multibody.spacar.layout import Layout
 
-__all__ = ["Rows", "Solver", "choose", "names", "solver_at"]
+__all__ = ["Rows", "Solver", "choose", "names", "names_of", "solver_at"]
 
 RANK = 1e-9
 SINGULAR = 1e-13
@@ -82,6 +82,11 @@ def names(layout: Layout, x: Array, e: Array) -> tuple[str, ...]:
     """Return names of coordinates and deformations by index."""
     x_keys, e_keys = list(layout.x_index), list(layout.e_index)
     return (*(f"x {x_keys[i][0]} {x_keys[i][1]}" for i in x), *(f"e {e_keys[i][0]} {e_keys[i][1]}" for i in e))
+
+
+def names_of(layout: Layout, kind: str) -> tuple[str, ...]:
+    """Return the names of the coordinates and deformations of a kind, such as ``kinematic``."""
+    return names(layout, np.flatnonzero(layout.x_is == kind), np.flatnonzero(layout.e_is == kind))
 
 
 class Solver:
