@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -13,13 +12,13 @@ from singletrack.errors import InputError, unknown_name
 from singletrack.linear import state_space
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from singletrack.arrays import Array
     from singletrack.model import LinearModel
+    from singletrack.parameters.feedback import Gains
 
 __all__ = ["closed_loop", "lqr_schedule"]
-
-#: Gains by (input, signal): a number, or the coefficients of 1, v, v² of a gain that depends on the speed.
-Gains = Mapping[tuple[str, str], "float | Sequence[float]"]
 
 
 def closed_loop(model: LinearModel, gains: Gains) -> LinearModel:

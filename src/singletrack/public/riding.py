@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 
     from singletrack.arrays import Array
     from singletrack.parameters import Bicycle, Rider
+    from singletrack.parameters.feedback import Feedback
     from singletrack.posture import Options
 
 __all__ = ["Ride", "ride_for"]
@@ -77,6 +78,7 @@ def ride_for(
     push: float = 0.0,
     lean: float = 0.0,
     torque: tuple[Array, Array] | None = None,
+    feedback: Feedback | None = None,
     progress: Callable[[float], object] | None = None,
 ) -> Ride:
     """Ride a bicycle, nonlinear, until the time is over or it has fallen.
@@ -97,6 +99,8 @@ def ride_for(
         Lean at the start, rad; to the right.
     torque
         Times (k,), s, and steer torques (k,), N m, linear in between.
+    feedback
+        What the rider or a machine does about it, with the gains of the speed at the start.
     progress
         Called with the time reached, s.
 
@@ -111,6 +115,15 @@ def ride_for(
     >>> fall = ride_for(load_bicycle("browser"), load_rider("rider-a"), "upright", speed=4.0, push=0.3)
     >>> fall.end, round(fall.end_time, 1)
     ('fell to the right (rear wheel off the ground)', 1.5)
+
+    Steering into the fall, with at most 20 N m, keeps them up.
+
+    >>> from singletrack.parameters import Feedback
+    >>> steady = Feedback({("steer torque", "lean"): 60.0, ("steer torque", "lean rate"): 30.0}, limit=20.0)
+    >>> ride_for(
+    ...     load_bicycle("browser"), load_rider("rider-a"), "upright", speed=4.0, push=0.3, duration=2.0, feedback=steady
+    ... ).end
+    'rode on'
     """
     require_records(bicycle, rider)
     if not (np.isfinite(duration) and duration > 0.0):
@@ -121,7 +134,11 @@ def ride_for(
     start = ride(model, speed, {"lean": lean}, {"lean": push})
     given: dict[str, Any] = {} if torque is None else {"steer torque": Sampled(*torque)}
     times = np.linspace(0.0, duration, max(2, round(duration * RATE) + 1))
-    data = simulate(start, times, given, trouble="end", rtol=1e-8, atol=1e-9, most_steps=MOST_STEPS, progress=progress)
+    settings: dict[str, Any] = {"trouble": "end", "rtol": 1e-8, "atol": 1e-9, "most_steps": MOST_STEPS}
+    if feedback is not None:
+        settings["feedback"] = feedback.at(speed)
+        settings["most_steps"] += 4 * round(duration / feedback.period)
+    data = simulate(start, times, given, progress=progress, **settings)
     end_time = float(data.attrs["end_time"])
     return Ride(data, _words(data), end_time, model, drawn_lines(bicycle, rider, options))
 

@@ -17,6 +17,7 @@ import numpy as np
 from singletrack.errors import ModelError, unknown_name
 from singletrack.multibody.engine.evaluation import Evaluator
 from singletrack.multibody.engine.events import Event, Moment, Watched, default_ends, watched
+from singletrack.multibody.engine.feedback import Controller
 from singletrack.multibody.engine.inputs import signals
 from singletrack.multibody.engine.results import Snapshot, gather
 from singletrack.multibody.engine.stepping import HaltError, Run, advance
@@ -29,6 +30,7 @@ if TYPE_CHECKING:
     from singletrack.arrays import Array
     from singletrack.multibody.engine.inputs import Given
     from singletrack.multibody.engine.model import State
+    from singletrack.parameters.feedback import Feedback
 
 __all__ = ["Event", "simulate"]
 
@@ -50,6 +52,7 @@ def simulate(
     atol: float = 1e-11,
     max_step: float = np.inf,
     most_steps: int = 200_000,
+    feedback: Feedback | None = None,
     progress: Callable[[float], object] | None = None,
 ) -> xr.Dataset:
     """Simulate the full nonlinear motion, and say how it ended.
@@ -75,6 +78,8 @@ def simulate(
         Integrator of scipy (DOP853 or RK45; Radau for stiff machines), tolerances of a step, longest step, s.
     most_steps
         How many steps may be taken, which bounds the time of computing.
+    feedback
+        State feedback with gains that are numbers, measured, bounded, delayed and held as it says.
     progress
         Called with the time reached, s, after every step.
 
@@ -99,6 +104,10 @@ def simulate(
     """
     times = _checked(times, method, singular, trouble)
     driven = signals(state.model.system, inputs)
+    control = None
+    if feedback is not None:
+        control = Controller(feedback, state.model.system, driven, (float(times[0]), float(times[-1])))
+        driven = control.signals
     if ends is None:
         ends = not any(event.terminal for event in events)
     longest = min([max_step, *(signal.max_step for signal in driven)])
@@ -107,15 +116,17 @@ def simulate(
     watch = [*map(watched, events), *stops]
     run = Run(state, driven, watch, times, method, options, singular == "pass", most_steps, progress)
     _end_at_once(run, stops)
-    return _finish(run, _go(run, trouble))
+    return _finish(run, _go(run, trouble, control))
 
 
-def _go(run: Run, trouble: str) -> str:
+def _go(run: Run, trouble: str, control: Controller | None) -> str:
     """Run through the intervals in which the inputs are smooth; return what went wrong."""
     first, last = float(run.times[0]), float(run.times[-1])
-    breaks = {b for signal in run.signals for b in signal.breaks if first < b < last}
+    breaks = {b for signal in run.signals for b in signal.breaks} | (control.breaks if control else set())
     try:
-        for bounds in pairwise([first, *sorted(breaks), last]):
+        for bounds in pairwise([first, *sorted(b for b in breaks if first < b < last), last]):
+            if control is not None:
+                control.measure(bounds[0], run.state)
             while run.time < bounds[1] and not run.ended:
                 advance(run, bounds[1], bounds)
     except HaltError as halt:
