@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+import functools
+from typing import TYPE_CHECKING, Any
 
 from singletrack.arrays.namespace import Array, as_arrays, is_jax, namespace
 
@@ -29,16 +30,31 @@ def stack(arrays: Sequence[Array], axis: int) -> Array:
     # Written in place, a good deal faster than numpy.stack for the short axes used here; and with the new axis first in
     # memory, so that components of many designs lie side by side.
     xp = namespace()
-    shapes = {array.shape for array in arrays if hasattr(array, "shape")}
-    shape = shapes.pop() if len(shapes) == 1 else xp.broadcast_shapes(*shapes)
-    kinds = {array.dtype for array in arrays if hasattr(array, "dtype")}
-    result = xp.empty((len(arrays), *shape), dtype=kinds.pop() if len(kinds) == 1 else xp.result_type(0.0, *arrays))
-    if result.dtype.kind not in "fc":
-        result = result.astype(float)
+    shape, kinds = _common(xp, arrays)
+    result = xp.empty((len(arrays), *shape), dtype=kinds)
     for k, array in enumerate(arrays):
         result[k] = array
-    place = len(shape) + 1 + axis
-    return xp.moveaxis(result, 0, place) if place else result
+    return result.transpose(_first_to(len(shape) + 1, len(shape) + 1 + axis)) if shape else result
+
+
+def _common(xp: Any, arrays: Sequence[Array]) -> tuple[tuple[int, ...], Any]:
+    """Return the shape to which arrays and numbers broadcast, and the type that holds them, at least double."""
+    shape: tuple[int, ...] = ()
+    alike, kind = True, xp.float64
+    for array in arrays:
+        own = getattr(array, "shape", ())
+        if own != shape and own:
+            alike, shape = alike and not shape, own
+        of_array = getattr(array, "dtype", kind)
+        if of_array != kind:
+            kind = xp.result_type(kind, of_array)
+    return shape if alike else xp.broadcast_shapes(*(getattr(array, "shape", ()) for array in arrays)), kind
+
+
+@functools.cache
+def _first_to(dimensions: int, place: int) -> tuple[int, ...]:
+    """Return the order of axes in which the first one stands at a place."""
+    return (*range(1, place + 1), 0, *range(place + 1, dimensions))
 
 
 def cross(a: Array, b: Array) -> Array:

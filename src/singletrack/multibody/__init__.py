@@ -33,6 +33,7 @@ from singletrack.multibody.engine.elements import (
 )
 from singletrack.multibody.engine.equilibrium import SteadyMotion, steady_motion
 from singletrack.multibody.engine.inputs import Constant, Function, Pulse, Sampled
+from singletrack.multibody.engine.kept import compile_equations
 from singletrack.multibody.engine.limits import Limit, Reach
 from singletrack.multibody.engine.linearise import Linearisation, linearise, speed_polynomials
 from singletrack.multibody.engine.model import Model, State, build
@@ -86,6 +87,7 @@ __all__ = [
     "close_joint",
     "close_point",
     "coefficients",
+    "compile_equations",
     "cylindrical",
     "driving_forces",
     "fixed",

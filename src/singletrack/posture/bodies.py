@@ -288,6 +288,8 @@ def _laws(posture: Posture, motion: Motion) -> tuple[Array | None, Array | None]
         added = None
         for k, joint in enumerate(posture.joints):
             value = getattr(joint, law)
+            if _is_nothing(value) and _is_nothing(joint.preload):
+                continue
             if not is_concrete(value) or np.any(np.asarray(value)):
                 rates = _by_design(motion, motion.rates[k])
                 term = as_arrays(value)[1][0][..., None, None] * rates[..., :, None] * rates[..., None, :]
@@ -300,6 +302,10 @@ def _laws(posture: Posture, motion: Motion) -> tuple[Array | None, Array | None]
                 added = term if added is None else added + term
         found.append(added)
     return found[0], found[1]
+
+
+def _is_nothing(value: Array) -> bool:
+    return type(value) is float and value == 0.0
 
 
 def _by_design(motion: Motion, values: Array) -> Array:

@@ -21,6 +21,7 @@ SEATS = [
     Options("leaned"),
     Options("leaned", arms="bent"),
     Options("leaned", "axial"),
+    Options("moore-2012"),
 ]
 SPRINGS, DAMPERS = {"torso lean": 100.0, "steer": 3.0}, {"torso lean": 10.0, "steer": 0.5}
 
@@ -38,6 +39,7 @@ def assert_same(bicycle, rider, options, tolerance=1e-10):
 @pytest.mark.parametrize("name", ["stratos", "browser"])
 @pytest.mark.parametrize("options", SEATS, ids=lambda options: options.title)
 def test_engines_agree_with_torso_lean_springs_and_dampers(name, options):
+    assert_same(load_bicycle(name), RIDER, options)
     leaning = replace(options, torso_lean=True, springs=SPRINGS, dampers=DAMPERS)
     model = assert_same(load_bicycle(name), RIDER, leaning)
     assert model.coordinates == ("lean", "steer", "torso lean")

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import casadi as ca
 
-from singletrack.multibody.engine.kinematics import DOWN, SX, Wrench, column, slices, unit
+from singletrack.multibody.engine.kinematics import DOWN, SX, Wrench, column, coordinates_by_joint, unit
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -103,7 +103,7 @@ def wheel_contact(wheel: Wheel, frames: Mapping[str, Frame]) -> Contact:
 
 def _quaternions(system: System, q: SX) -> list[SX]:
     """Return the coordinates of every quaternion (each less one in its first component)."""
-    place = slices(system)
+    place = coordinates_by_joint(system)
     return [q[place[joint.name]][-4:] for joint in system.joints if joint.quaternion]
 
 

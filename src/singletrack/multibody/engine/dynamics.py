@@ -10,7 +10,10 @@ import numpy as np
 
 from singletrack.arrays import Array
 from singletrack.errors import ModelError, unknown_name
+from singletrack.multibody.engine.articulated import tree_expression
 from singletrack.multibody.engine.assembly import refuse_undefined, span_of
+from singletrack.multibody.engine.kept import kept
+from singletrack.multibody.engine.reduction import MOST_ROWS, reduced_expression
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -19,9 +22,10 @@ if TYPE_CHECKING:
     from singletrack.multibody.engine.partition import Partition
     from singletrack.multibody.engine.system import System
 
-__all__ = ["Response", "accelerations", "loop_forces", "reduced", "split_wheel_forces", "wheel_forces"]
+__all__ = ["Response", "accelerations", "expression", "loop_forces", "reduced", "split_wheel_forces", "wheel_forces"]
 
 MASSLESS = 1e-13
+MOST_COORDINATES = 40
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,6 +58,15 @@ def reduced(model: Model, parts: Partition) -> ca.Function:
     """
     key = ("reduced", parts)
     if key not in model.cache:
+        model.cache[key] = kept(expression(model, parts))
+    function: ca.Function = model.cache[key]
+    return function
+
+
+def expression(model: Model, parts: Partition) -> ca.Function:
+    """Return the function of :func:`reduced` as an expression, which can be differentiated."""
+    key = ("expression", parts)
+    if key not in model.cache:
         model.cache[key] = _reduced(model, parts)
     function: ca.Function = model.cache[key]
     return function
@@ -64,6 +77,16 @@ def _solve(matrix: Any, right: Any) -> Any:
 
 
 def _reduced(model: Model, parts: Partition) -> ca.Function:
+    system = model.system
+    if not system.rows and parts.independent_speeds == tuple(range(len(system.coordinates))):
+        return tree_expression(system, model.equations)
+    if len(parts.rows) <= MOST_ROWS and len(system.coordinates) <= MOST_COORDINATES:
+        sizes = len(system.coordinates), len(system.inputs), len(system.rows)
+        return reduced_expression(model.equations, parts, sizes)
+    return _reduced_numerically(model, parts)
+
+
+def _reduced_numerically(model: Model, parts: Partition) -> ca.Function:
     system, equations = model.system, model.equations
     n, rows = len(system.coordinates), list(parts.rows)
     free, dependent = list(parts.independent_speeds), list(parts.dependent_speeds)
@@ -89,7 +112,7 @@ def _reduced(model: Model, parts: Partition) -> ca.Function:
     multipliers = ca.MX(len(system.rows), 1)
     if dependent:
         multipliers[rows] = _solve(own.T, (mass @ a + h)[dependent])
-    return ca.Function("reduced", [q, ui, f, p], [u, ca.densify(a), ca.densify(multipliers)])
+    return ca.Function("solved", [q, ui, f, p], [u, ca.densify(a), ca.densify(multipliers)])
 
 
 def accelerations(state: State, inputs: Mapping[str, float] | None = None) -> Response:
@@ -114,6 +137,8 @@ def accelerations(state: State, inputs: Mapping[str, float] | None = None) -> Re
     ui = state.u[list(state.partition.independent_speeds)]
     _, a, multipliers = function(state.q, ui, f, state.parameters)
     a, multipliers = a.full().ravel(), multipliers.full().ravel()
+    if not np.all(np.isfinite(a)):
+        raise ModelError("the accelerations are not determined: the constraints lose rank here")
     return Response(a, multipliers)
 
 

@@ -56,6 +56,10 @@ class Equations:
         (q, p) -> constraint Jacobian C (rows, n), mass matrix M (n, n).
     bias
         (q, u, f, p) -> h (n,), c (rows,).
+    demand
+        (q, u, a, f, p) -> M a + h (n,), in one pass.
+    inertia
+        (q, v, p) -> M v (n,), without M.
     tangent
         (q, u, a, m, f, dq, du, p) -> the changes of R, C u and C a + c in the direction (dq, du), the latter two
         with the rates themselves held.
@@ -82,6 +86,8 @@ class Equations:
     holonomic: ca.Function
     kinetics: ca.Function
     bias: ca.Function
+    demand: ca.Function
+    inertia: ca.Function
     tangent: ca.Function
     input_matrix: ca.Function
     energy: ca.Function
@@ -207,6 +213,8 @@ def derive(system: System) -> Equations:
         "holonomic": ((s.q,), (s.phi, jacobian[: s.phi.numel(), :])),
         "kinetics": ((s.q,), (jacobian, mass)),
         "bias": ((s.q, s.u, s.f), (bias, rate_change)),
+        "demand": ((s.q, s.u, s.a, s.f), (s.demand,)),
+        "inertia": ((s.q, dq), (ca.jtimes(s.demand, s.a, dq),)),
         "tangent": (
             (s.q, s.u, s.a, s.m, s.f, dq, du),
             (change[:n], ca.jtimes(s.rate, s.q, dq), change[n:]),

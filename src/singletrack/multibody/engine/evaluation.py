@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import casadi as ca
 import numpy as np
 
-from singletrack.multibody.engine.dynamics import reduced
+from singletrack.multibody.engine.dynamics import expression, reduced
 from singletrack.multibody.engine.model import State
 
 if TYPE_CHECKING:
@@ -20,6 +20,7 @@ __all__ = ["Evaluator", "right_side", "slope_jacobian"]
 
 NEWTON_STEPS = 8
 CLOSED = 1e-14
+CLOSE = 1e-9
 
 
 class Evaluator:
@@ -74,12 +75,13 @@ class Evaluator:
         """Return the coordinates with the dependent ones put back onto the constraints; None where that fails."""
         if not len(self.rows):
             return q
-        q = q.copy()
+        q, last = q.copy(), np.inf
         for _ in range(NEWTON_STEPS):
             phi, gradient = self.state.model.holonomic(q, self.state.parameters)
             left = float(np.max(abs(phi[self.rows])))
-            if left < CLOSED * max(1.0, float(np.max(abs(q)))):
+            if left < CLOSED or (left < CLOSE and left > 0.5 * last):  # as near as rounding lets it come
                 return q
+            last = left
             try:
                 step = np.linalg.solve(gradient[self.rows[:, None], self.dependent], phi[self.rows])
             except np.linalg.LinAlgError:
@@ -87,7 +89,7 @@ class Evaluator:
             if not np.all(np.isfinite(step)):
                 return None
             q[self.dependent] -= step
-        return q if left < 1e-9 * max(1.0, float(np.max(abs(q)))) else None
+        return q if left < CLOSE * max(1.0, float(np.max(abs(q)))) else None
 
     def project(self, t: float, y: Array) -> State | None:
         """Return the state of ``y = [q, u_i]`` put back onto the constraints; None where that fails."""
@@ -112,7 +114,7 @@ def slope_jacobian(evaluator: Evaluator) -> Callable[[float, Array], Array]:
         n, m = len(evaluator.q), len(evaluator.free)
         q, u_i = ca.MX.sym("q", n), ca.MX.sym("ui", m)
         f, p = ca.MX.sym("f", len(evaluator.f)), ca.MX.sym("p", len(model.equations.parameter_names))
-        u, a, _ = reduced(model, parts)(q, u_i, f, p)
+        u, a, _ = expression(model, parts)(q, u_i, f, p)
         slope = ca.vertcat(u, a[evaluator.free.tolist()] if m else ca.MX(0, 1))
         model.cache[key] = ca.Function("j", [q, u_i, f, p], [ca.densify(ca.jacobian(slope, ca.vertcat(q, u_i)))])
     function, n = model.cache[key], len(evaluator.q)
