@@ -106,7 +106,7 @@ class Sensitivity:
         """Return everything in SI for JSON; what does not exist is None."""
 
         def listed(values: np.ndarray) -> Any:
-            return np.where(np.isfinite(values), values, None).tolist()
+            return np.where(np.isfinite(values), values.astype(object), np.array(None)).tolist()
 
         return {
             "parameters": list(self.parameters),
@@ -226,7 +226,8 @@ _Part = tuple[list[str], list[str], np.ndarray, np.ndarray, np.ndarray, np.ndarr
 
 def _of_critical_speeds(design: Design, slopes: Derivatives, changes: np.ndarray) -> _Part:
     found = critical_speeds(slopes.model)
-    names, values, rows = [], [], []
+    names: list[str] = []
+    values, rows = [], []
     for kind, speeds, words in (
         ("weave", found.weave_speeds, found.weave_modes),
         ("capsize", found.capsize_speeds, found.capsize_modes),
