@@ -84,6 +84,13 @@ def fitted(bicycle: Bicycle, rider: Rider, elbow: Array) -> tuple[Rider, tuple[F
     """Return the rider of :func:`fit`, with the faults of designs of a batch that cannot be fitted.
 
     Their lean is that which comes nearest.
+
+    Parameters
+    ----------
+    bicycle : Bicycle
+    rider : Rider
+    elbow : array, shape (...)
+        The angle wanted at the elbows, rad, as for :func:`fit`.
     """
     require_geometry(bicycle)
     hip, shoulders, grip = _places(bicycle, rider)

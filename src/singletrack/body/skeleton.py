@@ -76,6 +76,13 @@ class Skeleton:
     def elbow_axis(self, side: str) -> Array:
         """Return the unit normal (..., 3) to the plane of the ``right`` or ``left`` arm, towards the right.
 
+        Parameters
+        ----------
+        side : str
+            ``right`` or ``left``.
+
+        Examples
+        --------
         >>> from singletrack import load_bicycle, load_rider
         >>> skeleton(load_bicycle("stratos"), load_rider("rider-a")).elbow_axis("left").tolist()
         [0.0, 1.0, 0.0]
@@ -129,7 +136,15 @@ def require_geometry(bicycle: Bicycle) -> None:
 
 
 def frame_points(bicycle: Bicycle) -> dict[int, Array]:
-    """Return points 1 to 12 and 16: wheels, frame, stem top."""
+    """Return points 1 to 12 and 16: wheels, frame, stem top.
+
+    By number, each of shape (..., 3), in m, in the bicycle's frame.
+
+    Parameters
+    ----------
+    bicycle : Bicycle
+        With its frame geometry.
+    """
     values = {name: value for name, value in bicycle.values().items() if "mass" not in name and "inertia" not in name}
     xp, arrays = as_arrays(*values.values())
     b: dict[str, Any] = dict(zip(values, arrays, strict=True))

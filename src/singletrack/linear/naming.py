@@ -29,7 +29,17 @@ _RIDING = np.array([3.0, 4.0, 6.0])
 
 
 def follow(p: Pencil, v: np.ndarray, roots: np.ndarray) -> np.ndarray:
-    """Put roots (m, k, 2 n) at speeds (m, k), all in units of the pencil, into the columns of their modes."""
+    """Put roots (m, k, 2 n) at speeds (m, k), all in units of the pencil, into the columns of their modes.
+
+    Parameters
+    ----------
+    p : Pencil
+        Of m designs.
+    v : array, shape (m, k)
+        Ascending speeds.
+    roots : array, shape (m, k, 2 n)
+        In any order.
+    """
     path = _Path.of(p)
     columns, above, below = path.columns()
     named = np.empty_like(roots)

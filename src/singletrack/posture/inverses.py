@@ -29,6 +29,19 @@ def solver_of(
     """Return a function from right sides (rows, p, N) to rates (joints that are not free, p, N), and faults.
 
     Rates are NaN in designs whose loops cannot move.
+
+    Parameters
+    ----------
+    xp : namespace
+        Of the arrays.
+    posture : Posture
+        The seated rider, of N designs.
+    loops : Loops
+        The conditions that loops make.
+    spin : array, shape (3, n, N)
+        Unit vectors of the joints' axes.
+    shape : tuple of int
+        Of the batch.
     """
     own = posture.tree.points.own
     if own is not None and not posture.tree.angles.index:

@@ -39,6 +39,11 @@ _VARIANTS: dict[str, dict[tuple[str, str | None], str]] = {
 def load_posture(name_or_path: str | Path) -> Mechanism:
     """Load a mechanism: a shipped posture's name, or a file.
 
+    Parameters
+    ----------
+    name_or_path : str or Path
+        A name goes before a file of that name.
+
     Raises
     ------
     InputError
@@ -68,6 +73,13 @@ def load_posture(name_or_path: str | Path) -> Mechanism:
 def is_posture(name_or_path: str | Path) -> bool:
     """Tell whether a name is a shipped posture's, or a file is a mechanism by what it says.
 
+    Parameters
+    ----------
+    name_or_path : str or Path
+        A file is only looked into if there is one.
+
+    Examples
+    --------
     >>> is_posture("upright"), is_posture("stratos")
     (True, False)
     """
@@ -83,6 +95,10 @@ def is_posture(name_or_path: str | Path) -> bool:
 
 def named_posture(found: str | Path | Mechanism) -> str | Mechanism:
     """Return a posture as options take it: a shipped name as it is, a file's mechanism, a mechanism as it is.
+
+    Parameters
+    ----------
+    found : str, Path or Mechanism
 
     Raises
     ------

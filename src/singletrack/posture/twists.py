@@ -62,23 +62,61 @@ class Motion:
         return cross3(self.spin[:, None], points[:, :, None]) + self.twist[:, None]
 
     def first(self, carries: Array, points: Array) -> tuple[Array, Array]:
-        """Return rotation and displacement (3, k, f, N) of points (3, k, N), moved by the joints of rows (k, n)."""
+        """Return rotation and displacement (3, k, f, N) of points (3, k, N), moved by the joints of rows (k, n).
+
+        Parameters
+        ----------
+        carries : array of bool, shape (k, n)
+            Which joints move which point.
+        points : array, shape (3, k, N)
+            In m.
+        """
         return self.spins(carries), along(self.columns(points) * carries[:, :, None], self.rates)
 
     def second(self, carries: Array, points: Array) -> Array:
-        """Return the second derivatives (3, k, p, N) of points (3, k, N)."""
+        """Return the second derivatives (3, k, p, N) of points (3, k, N).
+
+        Parameters
+        ----------
+        carries : array of bool, shape (k, n)
+            Which joints move which point.
+        points : array, shape (3, k, N)
+            In m.
+        """
         columns = self.columns(points) * carries[:, :, None]
         return turned(self.turning[:, None], columns) + along(columns, self.bends)
 
     def spins(self, carries: Array) -> Array:
-        """Return the rotations (3, k, f, N) of bodies that the joints of rows (k, n) move."""
+        """Return the rotations (3, k, f, N) of bodies that the joints of rows (k, n) move.
+
+        Parameters
+        ----------
+        carries : array of bool, shape (k, n)
+            Which joints move which body.
+        """
         return summed(carries, self.spin[:, :, None] * self.rates)
 
 
 def motion_of(
     tree: Tree, shape: tuple[int, ...], spin: Array, twist: Array, rates: Array, faults: tuple[Fault, ...]
 ) -> Motion:
-    """Return the motion of joints with these rates (n, f, N), still without second derivatives of their angles."""
+    """Return the motion of joints with these rates (n, f, N), still without second derivatives of their angles.
+
+    Parameters
+    ----------
+    tree : Tree
+        Which joint hangs on which.
+    shape : tuple of int
+        Of the batch.
+    spin : array, shape (3, n, N)
+        Unit vectors of the joints' axes.
+    twist : array, shape (3, n, N)
+        Velocities that unit rates give to what is at the origin, m.
+    rates : array, shape (n, f, N)
+        First derivatives of the joints' angles.
+    faults : tuple of Fault
+        Found so far.
+    """
     carried = summed(tree.halfway, spin[:, :, None] * rates), summed(tree.halfway, twist[:, :, None] * rates)
     i, j = tree.first, tree.second
     turning = carried[0][:, :, i] * rates[:, j] + carried[0][:, :, j] * rates[:, i]
@@ -86,13 +124,23 @@ def motion_of(
 
 
 def cross3(a: Array, b: Array) -> Array:
-    """Return cross products of arrays (3, ...)."""
+    """Return cross products of arrays (3, ...).
+
+    Parameters
+    ----------
+    a, b : array, shape (3, ...)
+    """
     parts = [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
     return stack(parts, -max(a.ndim, b.ndim))
 
 
 def dot3(a: Array, b: Array) -> Array:
-    """Return inner products of arrays (3, ...)."""
+    """Return inner products of arrays (3, ...).
+
+    Parameters
+    ----------
+    a, b : array, shape (3, ...)
+    """
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 
 
@@ -116,7 +164,15 @@ def turned(turning: Array, columns: Array) -> Array:
 
 
 def designs_last(arrays: list[Array], shape: tuple[int, ...]) -> tuple[Any, list[Array]]:
-    """Return the namespace and vectors (..., k, 3), broadcast to a batch's shape, as (3, k, N)."""
+    """Return the namespace and vectors (..., k, 3), broadcast to a batch's shape, as (3, k, N).
+
+    Parameters
+    ----------
+    arrays : list of array, shape (..., k, 3)
+        Each with a k of its own.
+    shape : tuple of int
+        Of the batch; N is the product of its entries.
+    """
     xp, same = as_arrays(*arrays)
     moved = []
     for array in same:

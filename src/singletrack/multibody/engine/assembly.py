@@ -224,7 +224,15 @@ def tangent_space(state: State) -> Array:
 
 
 def span_of(parts: Partition, jacobian: Array) -> Array:
-    """Return T (n, freedoms) with C T = 0 for a constraint Jacobian C (rows, n)."""
+    """Return T (n, freedoms) with C T = 0 for a constraint Jacobian C (rows, n).
+
+    Parameters
+    ----------
+    parts : Partition
+        Which speeds are independent, which dependent, which rows bind them.
+    jacobian : array, shape (rows, n)
+        C.
+    """
     dependent, free = list(parts.dependent_speeds), list(parts.independent_speeds)
     span = np.zeros((jacobian.shape[1], len(free)))
     span[free, range(len(free))] = 1.0

@@ -145,6 +145,13 @@ def accelerations(state: State, inputs: Mapping[str, float] | None = None) -> Re
 def loop_forces(state: State, inputs: Mapping[str, float] | None = None) -> dict[str, Array]:
     """Return the force (3,) of the first body on the second of every closed loop, in the ground's frame, N.
 
+    Parameters
+    ----------
+    state : State
+        Whose accelerations decide the forces.
+    inputs : mapping, optional
+        Values of inputs by name, N or N m; those not given are zero.
+
     Examples
     --------
     How hard does the leaned rider press? The force of each hand on the handlebar, forward and down:
@@ -169,6 +176,17 @@ def wheel_forces(state: State, inputs: Mapping[str, float] | None = None) -> dic
 
     The normal force is positive when the wheel presses on the ground.
 
+    By the wheels' names, each of shape (3,).
+
+    Parameters
+    ----------
+    state : State
+        Whose accelerations decide the forces.
+    inputs : mapping, optional
+        Values of inputs by name, N or N m; those not given are zero.
+
+    Examples
+    --------
     >>> from singletrack import load_bicycle
     >>> from singletrack.multibody import bicycle_model, ride
     >>> loads = wheel_forces(ride(bicycle_model(load_bicycle("benchmark")), 0.0))
