@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from singletrack.arrays import Array, Fault, as_arrays, is_concrete, refuse_single, vector
-from singletrack.body.skeleton import frame_points, require_geometry, skeleton
+from singletrack.body.frame import frame_points, require_geometry
+from singletrack.body.skeleton import skeleton
 from singletrack.errors import InputError, PostureError
 
 if TYPE_CHECKING:

@@ -4,16 +4,16 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from math import pi
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
-from singletrack.arrays import Array, as_arrays, cross, dot, is_concrete, namespace, stack, unit_vector, vector
+from singletrack.arrays import Array, as_arrays, cross, dot, is_concrete, stack, unit_vector, vector
 from singletrack.arrays.faults import Fault, refuse_single
-from singletrack.errors import InputError, PostureError
+from singletrack.errors import PostureError
 
 if TYPE_CHECKING:
     from singletrack.parameters import Bicycle, Rider
 
-__all__ = ["POINT_NAMES", "Skeleton", "frame_faults", "frame_points", "skeleton"]
+__all__ = ["POINT_NAMES", "Skeleton", "skeleton"]
 
 #: What the points 1 to 31 are. Right is positive y; the table's own comment calls points 21 and 23 left.
 POINT_NAMES = (
@@ -125,60 +125,6 @@ def skeleton(bicycle: Bicycle, rider: Rider) -> Skeleton:
     return Skeleton(stack([points[number] for number in range(1, 32)], -2), refuse_single(faults, where), elbow_axis)
 
 
-def require_geometry(bicycle: Bicycle) -> None:
-    """Raise InputError if a bicycle has no frame geometry, with the names that are missing."""
-    missing = bicycle.missing_geometry()
-    if missing:
-        raise InputError(
-            f"{bicycle.name or 'bicycle'}: cannot seat a rider without frame geometry; missing: {', '.join(missing)}",
-            parameters=missing,
-        )
-
-
-def frame_points(bicycle: Bicycle) -> dict[int, Array]:
-    """Return points 1 to 12 and 16: wheels, frame, stem top.
-
-    By number, each of shape (..., 3), in m, in the bicycle's frame.
-
-    Parameters
-    ----------
-    bicycle : Bicycle
-        With its frame geometry.
-    """
-    values = {name: value for name, value in bicycle.values().items() if "mass" not in name and "inertia" not in name}
-    xp, arrays = as_arrays(*values.values())
-    b: dict[str, Any] = dict(zip(values, arrays, strict=True))
-    rear, front = b["rear_wheel_radius"], b["front_wheel_radius"]
-    sin, cos = xp.sin(b["steer_axis_tilt"]), xp.cos(b["steer_axis_tilt"])
-    seat_cos, seat_sin = xp.cos(b["seat_tube_angle"]), xp.sin(b["seat_tube_angle"])
-
-    p: dict[int, Array] = {1: vector(0.0, 0.0, 0.0), 2: vector(0.0, 0.0, -rear)}
-    p[3], p[4] = (p[2] + vector(0.0, side * b["rear_hub_width"] / 2, 0.0) for side in (1, -1))
-    drop = rear - b["bottom_bracket_height"]
-    p[5] = vector(_other_leg(xp, b["chain_stay_length"], drop), 0.0, -b["bottom_bracket_height"])
-    p[6] = vector(b["wheel_base"], 0.0, 0.0)
-    p[7] = p[6] + vector(0.0, 0.0, -front)
-    p[8], p[9] = (p[7] + vector(0.0, side * b["front_hub_width"] / 2, 0.0) for side in (1, -1))
-    up_seat_tube = vector(-seat_cos, 0.0, -seat_sin)
-    p[10] = p[5] + b["seat_tube_length"][..., None] * up_seat_tube
-    # The head tube angle is 90 deg minus the steer axis tilt: its cosine is the tilt's sine.
-    offset = front * sin - b["trail"] * cos
-    along = _other_leg(xp, b["fork_length"], offset)
-    p[11] = p[7] + vector(-offset * cos - along * sin, 0.0, offset * sin - along * cos)
-    p[12] = vector(p[11][..., 0] - (p[11][..., 2] - p[10][..., 2]) * sin / cos, 0.0, p[10][..., 2])
-    p[13] = p[10] + b["seat_post_length"][..., None] * up_seat_tube
-    p[16] = p[12] + vector(-b["stem_length"] * sin, 0.0, -b["stem_length"] * cos)
-    # Still in the middle: how far apart the grips are may be the rider's matter.
-    p[19] = p[16] + vector(-b["handlebar_length"], 0.0, b.get("handlebar_drop", 0.0))
-    return p
-
-
-def _other_leg(xp: Any, hypotenuse: Array, leg: Array) -> Array:
-    """Return the other leg of a right triangle, NaN where there is none."""
-    square = hypotenuse**2 - leg**2
-    return xp.sqrt(xp.where(xp.real(square) < 0, xp.nan, square) if is_concrete(square) else square)
-
-
 def _rider_points(
     frame: dict[int, Array], bicycle: Bicycle, rider: Rider
 ) -> tuple[dict[int, Array], Array | None, list[Fault]]:
@@ -258,7 +204,7 @@ def _two_links(distance: Array, first: Array, second: Array, limb: str) -> tuple
     xp, (distance, first, second) = as_arrays(distance, first, second)
     # No angles, so that it is cheap and analytic.
     along = (distance**2 + first**2 - second**2) / (2 * distance)
-    aside = _other_leg(xp, first, along)
+    aside = other_leg(xp, first, along)
     distance, first, second = (xp.real(length) for length in (distance, first, second))
     ends, names = _LIMBS[limb]
     found = {"distance": distance, "reach": first + second, "least": xp.abs(first - second)}
@@ -278,36 +224,3 @@ _LIMBS = {
     "arm": ("shoulder-grip", ("upper_arm_length", "lower_arm_length")),
     "leg": ("hip-bracket", ("upper_leg_length", "lower_leg_length")),
 }
-
-
-def frame_faults(frame: dict[int, Array], bicycle: Bicycle) -> list[Fault]:
-    """Return faults of frame geometry: tubes too short to span their distance.
-
-    Parameters
-    ----------
-    frame : dict of int to array, shape (..., 3)
-        As :func:`frame_points` makes them.
-    bicycle : Bicycle
-    """
-    xp = namespace(frame[5], frame[11])
-    drop = bicycle.rear_wheel_radius - bicycle.bottom_bracket_height
-    return [
-        Fault(
-            xp.isnan(frame[5][..., 0]),
-            "chain_stay_length = {chain_stay_length:.4f} m does not span the height {drop:.4f} m "
-            "between rear hub and bottom bracket, must be more",
-            {"chain_stay_length": bicycle.chain_stay_length, "drop": abs(drop)},
-            InputError,
-            ("chain_stay_length",),
-            "more than the height between rear hub and bottom bracket",
-        ),
-        Fault(
-            xp.isnan(frame[11][..., 0]),
-            "fork_length = {fork_length:.4f} m is less than the offset of the front hub from the steer "
-            "axis, must be more",
-            {"fork_length": bicycle.fork_length},
-            InputError,
-            ("fork_length",),
-            "more than the offset of the front hub from the steer axis",
-        ),
-    ]

@@ -44,7 +44,7 @@ def arrange(roots: np.ndarray, count: np.ndarray, descending: np.ndarray) -> np.
     count : array, shape (...)
         0, 2 or 4.
     descending : array of bool, shape (...)
-        Whether the larger of the last two real roots goes first.
+        Whether the larger of the first two goes first, else the smaller.
 
     Examples
     --------

@@ -44,7 +44,7 @@ class Numbers:
         name : str
             Of the parameter.
         value : number
-            SI; where it is exactly zero it may be structural.
+            SI; exactly 0, 1 or -1 is structural.
         """
         value = float(value)
         if value in _STRUCTURAL:

@@ -204,15 +204,7 @@ class Spacar:
         }
 
     def run(self, times: Array | None = None, forces: Mapping[Key, float] | None = None) -> list[Motion]:
-        """Return the motion from the initial state, at the times of the file's TIMESTEP or at others, s.
-
-        Parameters
-        ----------
-        times : array, shape (k,), optional
-            In s; by default those of TIMESTEP.
-        forces : mapping, optional
-            Further constant stresses by (element, component).
-        """
+        """Return the motion from the initial state under ``forces``, at ``times`` (k,), s (by default of TIMESTEP)."""
         d = self.description
         if times is None:
             times = np.linspace(0.0, d.duration, d.steps + 1) if d.steps else np.zeros(1)
