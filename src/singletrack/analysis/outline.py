@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from singletrack.body import skeleton
-from singletrack.body.frame import frame_points
+from singletrack.body.skeleton import frame_points
 from singletrack.parameters.bodies import bicycle_bodies
 from singletrack.posture import steered_skeleton
 

@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from singletrack.arrays import Array, Fault, as_arrays, is_concrete, refuse_single, vector
-from singletrack.body.frame import frame_points, require_geometry
-from singletrack.body.skeleton import skeleton
+from singletrack.body.skeleton import frame_points, require_geometry, skeleton
 from singletrack.errors import InputError, PostureError
 
 if TYPE_CHECKING:
@@ -68,6 +67,11 @@ def fit(bicycle: Bicycle, rider: Rider, elbow: Array = 150 * pi / 180) -> Rider:
 def elbow_angle(bicycle: Bicycle, rider: Rider) -> Array:
     """Return the angle (...) in rad between upper and lower arm of a rider on a bicycle.
 
+    Parameters
+    ----------
+    bicycle : Bicycle
+    rider : Rider
+
     Examples
     --------
     >>> from math import degrees
@@ -91,7 +95,7 @@ def fitted(bicycle: Bicycle, rider: Rider, elbow: Array) -> tuple[Rider, tuple[F
     bicycle : Bicycle
     rider : Rider
     elbow : array, shape (...)
-        The angle wanted at the elbows, rad, as for :func:`fit`.
+        In rad.
     """
     require_geometry(bicycle)
     hip, shoulders, grip = _places(bicycle, rider)

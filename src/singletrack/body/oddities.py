@@ -9,8 +9,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 from weakref import WeakKeyDictionary, WeakSet
 
-from singletrack.body.frame import frame_faults, frame_points
 from singletrack.body.reach import seat_oddities
+from singletrack.body.skeleton import frame_faults, frame_points
 from singletrack.errors import OddityWarning, SingletrackError
 from singletrack.parameters import Bicycle
 from singletrack.parameters.plausibility import Oddity, oddities

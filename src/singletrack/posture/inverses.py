@@ -33,15 +33,12 @@ def solver_of(
     Parameters
     ----------
     xp : namespace
-        Of the arrays.
     posture : Posture
-        The seated rider, of N designs.
     loops : Loops
-        The conditions that loops make.
     spin : array, shape (3, n, N)
-        Unit vectors of the joints' axes.
+        Axes of the joints, as in :class:`singletrack.posture.twists.Motion`.
     shape : tuple of int
-        Of the batch.
+        Of the batch of N designs.
     """
     own = posture.tree.points.own
     if own is not None and not posture.tree.angles.index:

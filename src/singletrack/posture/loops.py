@@ -43,16 +43,13 @@ class Loops:
     far: Array | None
 
     def matrix(self, xp: Any, spin: Array, joints: np.ndarray) -> Array:
-        """Return the rates (rows, k, N) of all conditions for unit rates of some joints (k,).
+        """Return the rates (rows, k, N) of all conditions for unit rates of some joints.
 
         Parameters
         ----------
         xp : namespace
-            Of the arrays.
         spin : array, shape (3, n, N)
-            Unit vectors of the joints' axes.
         joints : array of int, shape (k,)
-            Which of them.
         """
         rows = []
         if self.columns is not None:
@@ -71,7 +68,6 @@ class Loops:
         Parameters
         ----------
         xp : namespace
-            Of the arrays.
         """
         rows = []
         if self.points is not None:
@@ -91,9 +87,7 @@ class Loops:
         Parameters
         ----------
         xp : namespace
-            Of the arrays.
         motion : Motion
-            First derivatives of all joints' angles.
         """
         rows = []
         if self.columns is not None:
@@ -109,7 +103,6 @@ class Loops:
         Parameters
         ----------
         motion : Motion
-            First derivatives of all joints' angles.
         """
         ends, moved = self.tree.points, self.turned_bar()
         parting = turned(motion.turning[:, ends.chain], self.columns)

@@ -41,8 +41,7 @@ def load_posture(name_or_path: str | Path) -> Mechanism:
 
     Parameters
     ----------
-    name_or_path : str or Path
-        A name goes before a file of that name.
+    name_or_path : str or path
 
     Raises
     ------
@@ -75,8 +74,7 @@ def is_posture(name_or_path: str | Path) -> bool:
 
     Parameters
     ----------
-    name_or_path : str or Path
-        A file is only looked into if there is one.
+    name_or_path : str or path
 
     Examples
     --------
@@ -98,7 +96,7 @@ def named_posture(found: str | Path | Mechanism) -> str | Mechanism:
 
     Parameters
     ----------
-    found : str, Path or Mechanism
+    found : str, path or Mechanism
 
     Raises
     ------
@@ -118,6 +116,10 @@ def named_posture(found: str | Path | Mechanism) -> str | Mechanism:
 
 def mechanism_of(options: Options) -> Mechanism:
     """Return the mechanism that options ask for.
+
+    Parameters
+    ----------
+    options : Options
 
     Raises
     ------
@@ -174,6 +176,12 @@ def _leaning(posture: str, shoulder: str | None, arms: str | None) -> Mechanism:
 def with_torso_lean(mechanism: Mechanism) -> Mechanism:
     """Return a mechanism with one more free hinge, along x at the hips, under all that is not a leg.
 
+    Parameters
+    ----------
+    mechanism : Mechanism
+
+    Examples
+    --------
     >>> with_torso_lean(load_posture("rigid")).segments["head"]
     'torso lean'
     """

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from singletrack.arrays import Array
-from singletrack.body.frame import frame_points
+from singletrack.body.skeleton import frame_points
 from singletrack.posture import Options, seat
 
 if TYPE_CHECKING:

@@ -174,7 +174,15 @@ def finite(what: str, name: str, value: float) -> float:
 
 
 def index_of(system: System, name: str) -> int:
-    """Return the place of a coordinate by its name."""
+    """Return the place of a coordinate by its name.
+
+    Parameters
+    ----------
+    system : System
+        The machine.
+    name : str
+        Of the coordinate.
+    """
     if name not in system.coordinates:
         raise ModelError(unknown_name("coordinate", name, system.coordinates))
     return system.coordinates.index(name)

@@ -221,13 +221,7 @@ class Spacar:
         return equilibrium(self.rows, replace(self.state(), v=np.zeros_like(self.layout.drawn)), factor)
 
     def frequencies(self, motion: Motion | None = None) -> tuple[Array, Array]:
-        """Return natural frequencies, rad/s, (q,), and modes (q, q), about an equilibrium (that under the loads).
-
-        Parameters
-        ----------
-        motion : Motion, optional
-            At rest, in equilibrium.
-        """
+        """Return natural frequencies, rad/s, (q,), and modes (q, q), about a motion at rest (the equilibrium)."""
         return frequencies(self.rows, self.equilibrium() if motion is None else motion)
 
     def buckling(self) -> Buckling:
