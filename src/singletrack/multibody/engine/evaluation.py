@@ -153,7 +153,7 @@ class Evaluator:
 
 
 def slope_jacobian(evaluator: Evaluator) -> Callable[[float, Array], Array]:
-    """Return the exact derivative, shape (n + m, n + m), of the right side with respect to ``y = [q, u_i]``, for any t, y.
+    """Return the exact derivative, shape (n + m, n + m), of the right side by ``y = [q, u_i]``, for any t, y.
 
     By algorithmic differentiation of the equations, linear solutions included.
 
