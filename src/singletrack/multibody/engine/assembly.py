@@ -21,6 +21,7 @@ NEWTON_STEPS = 60
 CLOSED = 1e-12
 WALK = 21
 FLAT = 1e-12
+SINGULAR_HERE = "singular configuration: the independent speeds do not determine the others here"
 
 
 def _blame(model: Model, q: Array, gradient: Array, phi: Array) -> ModelError:
@@ -230,5 +231,8 @@ def span_of(parts: Partition, jacobian: Array) -> Array:
     span[free, range(len(free))] = 1.0
     if dependent:
         kept = jacobian[list(parts.rows)]
-        span[dependent] = -np.linalg.solve(kept[:, dependent], kept[:, free])
+        try:
+            span[dependent] = -np.linalg.solve(kept[:, dependent], kept[:, free])
+        except np.linalg.LinAlgError:
+            raise ModelError(SINGULAR_HERE) from None
     return span

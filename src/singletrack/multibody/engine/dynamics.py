@@ -11,7 +11,7 @@ import numpy as np
 from singletrack.arrays import Array
 from singletrack.errors import ModelError, unknown_name
 from singletrack.multibody.engine.articulated import tree_expression
-from singletrack.multibody.engine.assembly import refuse_undefined, span_of
+from singletrack.multibody.engine.assembly import SINGULAR_HERE, refuse_undefined, span_of
 from singletrack.multibody.engine.kept import kept
 from singletrack.multibody.engine.reduction import MOST_ROWS, reduced_expression
 
@@ -135,10 +135,13 @@ def accelerations(state: State, inputs: Mapping[str, float] | None = None) -> Re
     _refuse_massless(state)
     function = reduced(state.model, state.partition)
     ui = state.u[list(state.partition.independent_speeds)]
-    _, a, multipliers = function(state.q, ui, f, state.parameters)
+    try:
+        _, a, multipliers = function(state.q, ui, f, state.parameters)
+    except RuntimeError:  # the linear solver's word for an exactly singular matrix
+        raise ModelError(SINGULAR_HERE) from None
     a, multipliers = a.full().ravel(), multipliers.full().ravel()
     if not np.all(np.isfinite(a)):
-        raise ModelError("the accelerations are not determined: the constraints lose rank here")
+        raise ModelError(SINGULAR_HERE)
     return Response(a, multipliers)
 
 

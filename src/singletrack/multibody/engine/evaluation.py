@@ -45,7 +45,15 @@ class Evaluator:
             buffer.set_arg(i, memoryview(given.data))
         for i, result in enumerate((self.u, self.a, self.multipliers)):
             buffer.set_res(i, memoryview(result.data))
-        self._buffer = buffer  # must live as long as the memory is used
+        count = len(system.holonomic_rows)
+        self.placed, self.phi, self.columns = np.empty(n), np.empty(count), np.empty((n, count))
+        closing: Any
+        closing, self._hold = state.model.equations.holonomic.buffer()
+        for i, given in enumerate((self.placed, state.parameters)):
+            closing.set_arg(i, memoryview(given.data))
+        for i, result in enumerate((self.phi, self.columns.reshape(-1))):
+            closing.set_res(i, memoryview(result.data))
+        self._buffers = buffer, closing  # must live as long as the memory is used
         self.rows = np.array(parts.rows[: parts.holonomic_count], dtype=int)
         self.dependent = np.array(parts.dependent_coordinates, dtype=int)
 
@@ -77,7 +85,9 @@ class Evaluator:
             return q
         q, last = q.copy(), np.inf
         for _ in range(NEWTON_STEPS):
-            phi, gradient = self.state.model.holonomic(q, self.state.parameters)
+            self.placed[:] = q
+            self._hold()
+            phi, gradient = self.phi, self.columns.T
             left = float(np.max(abs(phi[self.rows])))
             if left < CLOSED or (left < CLOSE and left > 0.5 * last):  # as near as rounding lets it come
                 return q
