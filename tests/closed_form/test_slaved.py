@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from conftest import random_bicycle
+from designs import random_bicycle
 from singletrack import coefficients, load_bicycle, load_rider
 from singletrack.arrays import cross
 from singletrack.body import rider_segments, skeleton

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Polygon
 from matplotlib.text import Text
 
-from conftest import COMBINATIONS, shipped_model
+from designs import COMBINATIONS, shipped_model
 from linear.torso import with_torso
 from singletrack import linear, load_bicycle
 from singletrack.present.eigenvalues import draw_eigenvalues, eigenvalue_figure

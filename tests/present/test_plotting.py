@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from matplotlib.text import Text
 
-from conftest import shipped_model
+from designs import shipped_model
 from singletrack import coefficients, load_bicycle, load_rider
 from singletrack.analysis.designs import Design
 from singletrack.analysis.family import family, stability_map

@@ -15,9 +15,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 import scipy.linalg
 import scipy.optimize
-import scipy.signal
 import scipy.stats
 
+from singletrack.control.residuals import autocorrelations, corrected_autoregression
 from singletrack.errors import InputError
 
 if TYPE_CHECKING:
@@ -30,9 +30,6 @@ __all__ = ["IdentifiedMode", "combine_modes", "identify_mode"]
 _FEWEST = 30
 _WELL = 0.9
 _HALF = 0.5
-_HIGHEST_ORDER = 2
-#: Largest size of a root of the autoregression: disturbances that last longer than the record cannot be told from it.
-_NEARLY_ENDLESS = 0.98
 
 
 @dataclass(frozen=True, eq=False)
@@ -198,39 +195,6 @@ def _least_squares(
     return (float(found.x[0]), float(found.x[1])), found.fun
 
 
-def _autoregression(left: np.ndarray) -> np.ndarray:
-    """Return coefficients (p,) of the residuals' autoregression, the order p by Akaike's criterion for few samples."""
-    n = len(left)
-    best, chosen = math.inf, np.zeros(0)
-    for p in range(_HIGHEST_ORDER + 1):
-        rows = (
-            np.stack([left[_HIGHEST_ORDER - k - 1 : n - k - 1] for k in range(p)], axis=-1) if p else np.zeros((n, 0))
-        )
-        wanted = left[_HIGHEST_ORDER:]
-        rows = rows[: len(wanted)]
-        coefficients = np.linalg.lstsq(rows, wanted, rcond=None)[0] if p else np.zeros(0)
-        rest = wanted - rows @ coefficients
-        count = len(wanted)
-        score = count * math.log(max(float(rest @ rest) / count, 1e-300)) + 2 * (p + 1) * count / max(count - p - 2, 1)
-        if score < best:
-            best, chosen = score, coefficients
-    roots = np.roots([1.0, *-chosen])
-    if roots.size and np.abs(roots).max() > _NEARLY_ENDLESS:  # an estimate that would never settle
-        roots = roots * np.minimum(1.0, _NEARLY_ENDLESS / np.abs(roots))
-        chosen = -np.real(np.poly(roots))[1:]
-    return chosen
-
-
-def _correlations(coefficients: np.ndarray, count: int) -> np.ndarray:
-    """Return the autocorrelations (count,) of an autoregressive process, from its impulse response."""
-    impulse = np.zeros(4 * count + 200)
-    impulse[0] = 1.0
-    weights = scipy.signal.lfilter([1.0], [1.0, *-coefficients], impulse)
-    sums = scipy.signal.fftconvolve(weights, weights[::-1])[len(weights) - 1 :][:count]
-    found: np.ndarray = sums / sums[0]
-    return found
-
-
 def _covariance(t: np.ndarray, y: np.ndarray, sigma: float, omega: float, left: np.ndarray) -> tuple[np.ndarray, float]:
     """Return the covariance of σ and ω, and the degrees of freedom that the residuals are worth."""
     columns = _columns(t, sigma, omega)
@@ -239,8 +203,8 @@ def _covariance(t: np.ndarray, y: np.ndarray, sigma: float, omega: float, left: 
     quadrature = amplitudes[2] * columns[:, 1] - amplitudes[1] * columns[:, 2]
     jacobian = np.column_stack([t * oscillation, t * quadrature, columns])
     basis, triangle = np.linalg.qr(jacobian)
-    coefficients = _corrected(left, basis)
-    correlated = scipy.linalg.toeplitz(_correlations(coefficients, len(t)))
+    coefficients = corrected_autoregression(left, basis)
+    correlated = scipy.linalg.toeplitz(autocorrelations(coefficients, len(t)))
     # Of residuals (1 - P) e with e ~ s² R: E|residuals|² = s² (n - trace(P R)); the fit takes out what it can.
     taken = basis.T @ correlated @ basis
     worth = len(t) - float(np.trace(taken))
@@ -251,35 +215,13 @@ def _covariance(t: np.ndarray, y: np.ndarray, sigma: float, omega: float, left: 
     return covariance[:2, :2], max(both - 5.0, 2.0)
 
 
-def _corrected(left: np.ndarray, basis: np.ndarray) -> np.ndarray:
-    """Return the autoregression of the disturbance: estimated from residuals, mended for what the fit takes out.
-
-    The residuals of a fit look less correlated than the disturbance was. For each candidate the first correlation that
-    residuals would show is compared with the one they do show, and the candidate moved until both agree.
-    """
-    coefficients = _autoregression(left)
-    if not coefficients.size:
-        return coefficients
-    shown = float(left[1:] @ left[:-1] / (left @ left))
-    roots = np.roots([1.0, *-coefficients])
-    low, high = 0.5, _NEARLY_ENDLESS / max(np.abs(roots).max(), 1e-9)
-
-    def stretched(factor: float) -> np.ndarray:
-        return -np.real(np.poly(roots * factor))[1:]
-
-    def gap(factor: float) -> float:
-        correlated = scipy.linalg.toeplitz(_correlations(stretched(factor), len(left)))
-        projected = correlated - basis @ (basis.T @ correlated)
-        projected = projected - (projected @ basis) @ basis.T
-        return float(np.trace(projected, offset=1) / np.trace(projected)) - shown
-
-    if high <= low or gap(low) * gap(high) > 0:
-        return stretched(min(high, 1.0)) if high < 1.0 or gap(high) > 0 else stretched(high)
-    return stretched(float(scipy.optimize.brentq(gap, low, high, xtol=1e-3)))
-
-
 def combine_modes(found: Sequence[IdentifiedMode]) -> IdentifiedMode:
     """Return the mean of repetitions, weighted by their precision; its deviation at least what their scatter says.
+
+    Parameters
+    ----------
+    found : sequence of IdentifiedMode
+        One for each repetition.
 
     Raises
     ------

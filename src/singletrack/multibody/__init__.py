@@ -15,27 +15,22 @@ from singletrack.multibody.engine.closures import (
 )
 from singletrack.multibody.engine.connections import CoordinateForce, Force, Sensor, Spring, Torque, Wheel
 from singletrack.multibody.engine.dynamics import Response, accelerations, loop_forces, wheel_forces
-from singletrack.multibody.engine.elements import (
-    GROUND,
-    Body,
-    Joint,
-    Motion,
+from singletrack.multibody.engine.elements import GROUND, Body, Joint, Motion, parameter, parameters
+from singletrack.multibody.engine.equilibrium import SteadyMotion, steady_motion
+from singletrack.multibody.engine.inputs import Constant, Function, Pulse, Sampled
+from singletrack.multibody.engine.joints import (
     cylindrical,
     fixed,
     free,
-    parameter,
-    parameters,
     planar,
     prismatic,
     revolute,
     spherical,
     universal,
 )
-from singletrack.multibody.engine.equilibrium import SteadyMotion, steady_motion
-from singletrack.multibody.engine.inputs import Constant, Function, Pulse, Sampled
 from singletrack.multibody.engine.kept import compile_equations
 from singletrack.multibody.engine.limits import Limit, Reach
-from singletrack.multibody.engine.linearise import Linearisation, linearise, speed_polynomials
+from singletrack.multibody.engine.linearise import Linearisation, linearise
 from singletrack.multibody.engine.model import Model, State, build
 from singletrack.multibody.engine.reactions import (
     Buckling,
@@ -46,6 +41,7 @@ from singletrack.multibody.engine.reactions import (
     joint_reactions,
 )
 from singletrack.multibody.engine.simulate import Event, simulate
+from singletrack.multibody.engine.straight import speed_polynomials
 from singletrack.multibody.engine.system import System
 
 __all__ = [

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar
 
 from singletrack.arrays import Array
-from singletrack.parameters.flexible import hinge_faults
+from singletrack.parameters.hinge_rules import hinge_faults
 from singletrack.parameters.inertia_rules import FLATNESS_TOLERANCE, inertia_faults, skate_faults, tyre_faults
 from singletrack.parameters.record import Record, parameter
 

@@ -6,19 +6,12 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from singletrack.arrays import Array, as_arrays, vector
-from singletrack.arrays.faults import Fault
-from singletrack.errors import InputError
+from singletrack.parameters.hinge_rules import FORK_BENDING, FRAME_TORSION, HINGE_PARAMETERS
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
     from singletrack.parameters.bicycle import Bicycle
 
-__all__ = ["FORK_BENDING", "FRAME_TORSION", "SoftHinge", "hinge_faults", "soft_hinges"]
-
-#: Names of the freedoms.
-FRAME_TORSION, FORK_BENDING = "frame torsion", "fork bending"
-_PARTS = {FRAME_TORSION: ("frame_torsion", "frame_hinge"), FORK_BENDING: ("fork_bending", "fork_hinge")}
+__all__ = ["FORK_BENDING", "FRAME_TORSION", "SoftHinge", "soft_hinges"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,7 +53,7 @@ def soft_hinges(bicycle: Bicycle) -> tuple[SoftHinge, ...]:
     ('fork bending', [0.881, 0.0, -0.673], ())
     """
     hinges = []
-    for name, (what, where) in _PARTS.items():
+    for name, (what, where) in HINGE_PARAMETERS.items():
         stiffness = getattr(bicycle, f"{what}_stiffness")
         if stiffness is None:
             continue
@@ -80,21 +73,3 @@ def _crown(bicycle: Bicycle) -> Array:
     sin, cos = xp.sin(tilt), xp.cos(tilt)
     above = trail * sin + radius * cos + radius
     return vector(bicycle.wheel_base + trail - above * sin, 0.0, -above * cos)
-
-
-def hinge_faults(bicycle: Bicycle) -> Iterator[Fault]:
-    """Yield a fault for each soft hinge of which only one coordinate is given.
-
-    Parameters
-    ----------
-    bicycle : Bicycle
-    """
-    for what, where in _PARTS.values():
-        if getattr(bicycle, f"{what}_stiffness") is None:
-            continue
-        for axis, other in ("xz", "zx"):
-            if getattr(bicycle, f"{where}_{axis}") is None and getattr(bicycle, f"{where}_{other}") is not None:
-                import numpy as np
-
-                text = f"{where}_{other} needs {where}_{axis} too: both, or none for the fork's crown"
-                yield Fault(np.ones((), dtype=bool), text, {}, InputError, (f"{where}_{axis}",), "a finite number in m")

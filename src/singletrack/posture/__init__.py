@@ -1,11 +1,12 @@
 """Which segments of the rider move with the steer, and how."""
 
 from singletrack.posture.arguments import require_bicycle, require_posture, require_records
-from singletrack.posture.bodies import SlavedBodies, SlavedMass, slaved_bodies, slaved_mass
+from singletrack.posture.bodies import SlavedMass, slaved_mass
 from singletrack.posture.mechanism import HANDLEBAR, Mechanism
 from singletrack.posture.options import ARMS, POSTURES, SHOULDERS, STEER, Options, input_name
 from singletrack.posture.residual import loop_residual
 from singletrack.posture.seated import Joint, Loop, Posture, seat, steer_axis
+from singletrack.posture.segment_motion import SlavedBodies, slaved_bodies
 from singletrack.posture.shipped import TORSO_LEAN, is_posture, load_posture, mechanism_of, named_posture
 from singletrack.posture.steered import moved_skeleton, steered_skeleton
 

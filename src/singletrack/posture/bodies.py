@@ -12,7 +12,7 @@ follows from it (docs/theory.md, with X as in :mod:`singletrack.posture.twists` 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -20,10 +20,9 @@ import numpy as np
 from singletrack.arrays import Array, as_arrays, is_concrete, stack
 from singletrack.arrays.faults import Fault, refuse_single
 from singletrack.errors import PostureError
-from singletrack.parameters.flexible import FRAME_TORSION, soft_hinges
-from singletrack.posture.mechanism import HANDLEBAR
+from singletrack.posture.laws import laws_of
 from singletrack.posture.motion import rider_motion
-from singletrack.posture.seated import Joint
+from singletrack.posture.segment_motion import carried_by_soft_frame
 from singletrack.posture.twists import Motion, cross3, designs_last, dot3, summed
 
 if TYPE_CHECKING:
@@ -31,7 +30,7 @@ if TYPE_CHECKING:
     from singletrack.parameters import Bicycle
     from singletrack.posture.seated import Posture
 
-__all__ = ["SlavedBodies", "SlavedMass", "slaved_bodies", "slaved_mass"]
+__all__ = ["SlavedMass", "slaved_mass"]
 
 #: A free joint whose inertia is less than this share of what its segments have about the rear contact moves no mass.
 _STILL = 1e-12
@@ -110,7 +109,7 @@ def slaved_mass(posture: Posture, bicycle: Bicycle) -> SlavedMass:
     faults = posture.skeleton.faults + posture.faults
     if not posture.joints:
         return SlavedMass(**whole, faults=faults)
-    posture = _carried_by_soft_frame(posture, bicycle)
+    posture = carried_by_soft_frame(posture, bicycle)
     motion, tree = rider_motion(posture, bicycle, shape), posture.tree
     moving = tree.moving
     beyond = summed(tree.carries[moving].T, rows[:, moving])
@@ -125,7 +124,7 @@ def slaved_mass(posture: Posture, bicycle: Bicycle) -> SlavedMass:
     turning = motion.turning
     lifted = turning[0] * momentum[1][:, None] - turning[1] * momentum[0][:, None] + momentum[2][:, None] * motion.bends
     inner = [value.reshape(shape) for value in inner]
-    damping, stiffness = _laws(posture, motion)
+    damping, stiffness = laws_of(posture, motion)
     return SlavedMass(
         **whole,
         spin_x=along(spin[0], rates),
@@ -192,77 +191,6 @@ def _momenta(motion: Motion, beyond: Array) -> tuple[Array, Array]:
     return mass * twist + cross3(spin, moment), turned + cross3(moment, twist)
 
 
-@dataclass(frozen=True, eq=False)
-class SlavedBodies:
-    """The n segments one by one, with their motion relative to the rear frame along f freedoms, the steer first.
-
-    A segment's centre moves by sum J_i d_i + sum H_ij d_i d_j / 2, its first-order rotation is sum w_i d_i. The p pairs
-    of freedoms are (0, 0), (0, 1), ..., (1, 1), ...
-
-    Attributes
-    ----------
-    mass : array, shape (..., n)
-        In kg.
-    centre : array, shape (..., n, 3)
-        At rest, in m, in the bicycle's frame.
-    inertia : array, shape (..., n, 3, 3)
-        About the centre, in kg m^2.
-    rotation : array, shape (..., f, n, 3)
-        w, in rad per rad.
-    displacement : array, shape (..., f, n, 3)
-        J, in m per rad.
-    curvature : array, shape (..., p, n, 3)
-        H, in m per rad^2.
-    """
-
-    mass: Array
-    centre: Array
-    inertia: Array
-    rotation: Array
-    displacement: Array
-    curvature: Array
-
-
-def slaved_bodies(posture: Posture, bicycle: Bicycle) -> SlavedBodies:
-    """Return the rider's segments one by one, with their motion.
-
-    Parameters and errors as for :func:`slaved_mass`, which has what the equations of a rigid bicycle need.
-
-    Examples
-    --------
-    >>> from singletrack import load_bicycle, load_rider
-    >>> from singletrack.posture import seat
-    >>> bicycle = load_bicycle("browser")
-    >>> slaved_bodies(seat(bicycle, load_rider("rider-a"), "upright"), bicycle).displacement.shape
-    (1, 10, 3)
-    """
-    segments = list(posture.segments.values())
-    mass = stack([body.mass for body in segments], -1)
-    centre = stack([body.centre for body in segments], -2)
-    inertia = stack([body.inertia for body in segments], -3)
-    if not posture.joints:
-        still = np.zeros((1, len(segments), 3))
-        return SlavedBodies(mass, centre, inertia, still, still, still)
-    posture = _carried_by_soft_frame(posture, bicycle)
-    motion, carries = rider_motion(posture, bicycle), posture.tree.carries
-    xp, (points,) = designs_last([centre], motion.shape)
-    rotation, displacement = motion.first(carries, points)
-    curvature = motion.second(carries, points)
-
-    def by_design(values: Array) -> Array:
-        return xp.moveaxis(values.reshape(*values.shape[:3], *motion.shape), (0, 1, 2), (-1, -2, -3))
-
-    return SlavedBodies(mass, centre, inertia, by_design(rotation), by_design(displacement), by_design(curvature))
-
-
-def _carried_by_soft_frame(posture: Posture, bicycle: Bicycle) -> Posture:
-    """Return a posture in which the twist of a soft frame is one more free joint, that which carries the handlebar."""
-    hinge = next((hinge for hinge in soft_hinges(bicycle) if hinge.name == FRAME_TORSION), None)
-    if hinge is None or all(loop.to != HANDLEBAR for loop in posture.loops):
-        return posture
-    return replace(posture, joints=(*posture.joints, Joint(hinge.name, "", hinge.point, hinge.axis, free=True)))
-
-
 def _massless(posture: Posture, inner: list[Array], scale: Array) -> tuple[Fault, ...]:
     """Return a fault for each free joint that moves no mass."""
     if not posture.freedoms or not is_concrete(inner[-1]):
@@ -274,41 +202,3 @@ def _massless(posture: Posture, inner: list[Array], scale: Array) -> tuple[Fault
         Fault(own[i] <= _STILL * np.real(scale), text.format(posture=posture.name, joint=name), {}, PostureError)
         for i, name in enumerate(posture.freedoms, start=1)
     )
-
-
-def _laws(posture: Posture, motion: Motion) -> tuple[Array | None, Array | None]:
-    """Return what dampers and springs of the joints add to C0 and S0, (..., f, f) each; None without any.
-
-    The potential of a joint's spring is k s^2 / 2 - p s, with s = sum U_i d_i + sum U_ij d_i d_j / 2.
-    """
-    tree = posture.tree
-    found: list[Array | None] = []
-    count = 1 + len(posture.freedoms)
-    for law in ("damping", "stiffness"):
-        added = None
-        for k, joint in enumerate(posture.joints):
-            value = getattr(joint, law)
-            if _is_nothing(value) and _is_nothing(joint.preload):
-                continue
-            if not is_concrete(value) or np.any(np.asarray(value)):
-                rates = _by_design(motion, motion.rates[k])
-                term = as_arrays(value)[1][0][..., None, None] * rates[..., :, None] * rates[..., None, :]
-                added = term if added is None else added + term
-            if law == "stiffness" and not joint.free and np.any(np.asarray(joint.preload)):
-                bends = _by_design(motion, motion.bends[k])
-                square = np.zeros((count, count), dtype=int)
-                square[tree.first, tree.second] = square[tree.second, tree.first] = range(len(tree.first))
-                term = -as_arrays(joint.preload)[1][0][..., None, None] * bends[..., square]
-                added = term if added is None else added + term
-        found.append(added)
-    return found[0], found[1]
-
-
-def _is_nothing(value: Array) -> bool:
-    return type(value) is float and value == 0.0
-
-
-def _by_design(motion: Motion, values: Array) -> Array:
-    """Return values (k, N) of one joint as (..., k)."""
-    xp, (values,) = as_arrays(values)
-    return xp.moveaxis(values.reshape(values.shape[0], *motion.shape), 0, -1)

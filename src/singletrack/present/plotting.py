@@ -7,8 +7,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from singletrack.analysis.uncertainty import EigenvalueUncertainty
-from singletrack.linear import CriticalSpeeds, Modes
 from singletrack.present.bands import add_bands
 from singletrack.present.eigenvalues import broken, draw_eigenvalues
 from singletrack.present.style import LINES, new_figure, style
@@ -20,6 +18,8 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
+    from singletrack.analysis.uncertainty import EigenvalueUncertainty
+    from singletrack.linear import CriticalSpeeds, Modes
 
 __all__ = ["MILLIMETRES", "Drawn", "overlay_figure", "single_figure"]
 

@@ -23,7 +23,8 @@ from singletrack.multibody.bicycle.parametrise import Numbers
 from singletrack.multibody.bicycle.rider import frame_segments, preload_name, rider_elements
 from singletrack.multibody.engine.assembly import assemble, move
 from singletrack.multibody.engine.connections import CoordinateForce, Wheel
-from singletrack.multibody.engine.elements import GROUND, Body, free, revolute
+from singletrack.multibody.engine.elements import GROUND, Body
+from singletrack.multibody.engine.joints import free, revolute
 from singletrack.multibody.engine.model import Model, build
 from singletrack.multibody.engine.system import System
 from singletrack.parameters.bodies import bicycle_bodies
