@@ -141,7 +141,15 @@ def require_geometry(bicycle: Bicycle) -> None:
 
 
 def frame_points(bicycle: Bicycle) -> dict[int, Array]:
-    """Return points 1 to 12 and 16: wheels, frame, stem top."""
+    """Return points 1 to 12 and 16: wheels, frame, stem top.
+
+    By number, each of shape (..., 3), in m, in the bicycle's frame.
+
+    Parameters
+    ----------
+    bicycle : Bicycle
+        With its frame geometry.
+    """
     values = {name: value for name, value in bicycle.values().items() if "mass" not in name and "inertia" not in name}
     xp, arrays = as_arrays(*values.values())
     b: dict[str, Any] = dict(zip(values, arrays, strict=True))

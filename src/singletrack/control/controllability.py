@@ -73,6 +73,11 @@ class LostMode:
 def state_polynomial(model: LinearModel) -> tuple[np.ndarray, np.ndarray]:
     """Return the state matrix of a single design as a polynomial in the speed, and its inputs.
 
+    Parameters
+    ----------
+    model : LinearModel
+        Of n freedoms and m inputs.
+
     Returns
     -------
     A : array, shape (3, 2 n, 2 n)

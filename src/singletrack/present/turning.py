@@ -31,9 +31,9 @@ def turn_text(
     quantities
         What, value, unit, in the order of the lines.
     forces
-        Whose, and its three components, N.
+        Whose, and its components, shape (3,), N.
     roots
-        Names of the modes and their eigenvalues, 1/s.
+        Names of the modes and their eigenvalues, 1/s, each a scalar.
     """
     lines = [f"{what + ':':<22}{value:10.4g} {unit}".rstrip() for what, value, unit in quantities]
     lines += [

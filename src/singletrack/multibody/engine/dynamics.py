@@ -55,6 +55,13 @@ def reduced(model: Model, parts: Partition) -> ca.Function:
 
     u_i are the independent speeds. With T from C T = 0 and b from C b = -c, the accelerations obey
     ``T^T M T a_i = -T^T (h + M b)``; the linear systems are solved numerically in every evaluation.
+
+    Parameters
+    ----------
+    model : Model
+        The machine.
+    parts : Partition
+        Which speeds are independent.
     """
     key = ("reduced", parts)
     if key not in model.cache:
@@ -64,7 +71,15 @@ def reduced(model: Model, parts: Partition) -> ca.Function:
 
 
 def expression(model: Model, parts: Partition) -> ca.Function:
-    """Return the function of :func:`reduced` as an expression, which can be differentiated."""
+    """Return the function of :func:`reduced` as an expression, which can be differentiated.
+
+    Parameters
+    ----------
+    model : Model
+        The machine.
+    parts : Partition
+        Which speeds are independent.
+    """
     key = ("expression", parts)
     if key not in model.cache:
         model.cache[key] = _reduced(model, parts)
@@ -148,6 +163,13 @@ def accelerations(state: State, inputs: Mapping[str, float] | None = None) -> Re
 def loop_forces(state: State, inputs: Mapping[str, float] | None = None) -> dict[str, Array]:
     """Return the force (3,) of the first body on the second of every closed loop, in the ground's frame, N.
 
+    Parameters
+    ----------
+    state : State
+        Whose accelerations decide the forces.
+    inputs : mapping, optional
+        Values of inputs by name, N or N m; those not given are zero.
+
     Examples
     --------
     How hard does the leaned rider press? The force of each hand on the handlebar, forward and down:
@@ -172,6 +194,17 @@ def wheel_forces(state: State, inputs: Mapping[str, float] | None = None) -> dic
 
     The normal force is positive when the wheel presses on the ground.
 
+    By the wheels' names, each of shape (3,).
+
+    Parameters
+    ----------
+    state : State
+        Whose accelerations decide the forces.
+    inputs : mapping, optional
+        Values of inputs by name, N or N m; those not given are zero.
+
+    Examples
+    --------
     >>> from singletrack import load_bicycle
     >>> from singletrack.multibody import bicycle_model, ride
     >>> loads = wheel_forces(ride(bicycle_model(load_bicycle("benchmark")), 0.0))
@@ -183,7 +216,14 @@ def wheel_forces(state: State, inputs: Mapping[str, float] | None = None) -> dic
 
 
 def split_wheel_forces(system: System, multipliers: Array) -> Array:
-    """Return (k, wheels, 3) longitudinal, lateral and normal forces from multipliers (k, rows), N."""
+    """Return (k, wheels, 3) longitudinal, lateral and normal forces from multipliers (k, rows), N.
+
+    Parameters
+    ----------
+    system : System
+        The machine.
+    multipliers : array, shape (k, rows)
+    """
     holonomic, wheels = len(system.holonomic_rows), len(system.wheels)
     normal = -multipliers[:, holonomic - wheels : holonomic]
     rolling = multipliers[:, holonomic:].reshape(len(multipliers), wheels, 2)

@@ -58,14 +58,32 @@ class Evaluator:
         self.dependent = np.array(parts.dependent_coordinates, dtype=int)
 
     def inputs(self, t: float) -> Array:
-        """Return the inputs at a time, seen from inside the interval."""
+        """Return the inputs at a time, seen from inside the interval.
+
+        Shape (inputs,), N or N m.
+
+        Parameters
+        ----------
+        t : float
+            In s.
+        """
         inside = min(max(t, self.low), self.high)
         for i, signal in enumerate(self.driven):
             self.f[i] = signal(inside)
         return self.f
 
     def respond(self, t: float, q: Array, u_i: Array) -> None:
-        """Fill ``u``, ``a`` and ``multipliers`` for a time, coordinates and independent speeds."""
+        """Fill ``u``, ``a`` and ``multipliers`` for a time, coordinates and independent speeds.
+
+        Parameters
+        ----------
+        t : float
+            In s.
+        q : array, shape (n,)
+            Coordinates, m or rad.
+        u_i : array, shape (m,)
+            Independent speeds.
+        """
         self.q[:], self.u_i[:] = q, u_i
         self.inputs(t)
         try:
@@ -74,13 +92,26 @@ class Evaluator:
             self.u[:] = self.a[:] = self.multipliers[:] = np.nan
 
     def slope(self, t: float, y: Array) -> Array:
-        """Return ``y' = [u, a_i]`` for ``y = [q, u_i]``."""
+        """Return ``y' = [u, a_i]`` for ``y = [q, u_i]``.
+
+        Parameters
+        ----------
+        t : float
+            In s.
+        y : array, shape (n + m,)
+        """
         n = len(self.q)
         self.respond(t, y[:n], y[n:])
         return np.concatenate([self.u, self.a[self.free]])
 
     def close(self, q: Array) -> Array | None:
-        """Return the coordinates with the dependent ones put back onto the constraints; None where that fails."""
+        """Return the coordinates with the dependent ones put back onto the constraints; None where that fails.
+
+        Parameters
+        ----------
+        q : array, shape (n,)
+            Close to the constraints.
+        """
         if not len(self.rows):
             return q
         q, last = q.copy(), np.inf
@@ -102,7 +133,15 @@ class Evaluator:
         return q if left < CLOSE * max(1.0, float(np.max(abs(q)))) else None
 
     def project(self, t: float, y: Array) -> State | None:
-        """Return the state of ``y = [q, u_i]`` put back onto the constraints; None where that fails."""
+        """Return the state of ``y = [q, u_i]`` put back onto the constraints; None where that fails.
+
+        Parameters
+        ----------
+        t : float
+            In s.
+        y : array, shape (n + m,)
+            Close to the constraints.
+        """
         n = len(self.q)
         q = self.close(y[:n]) if np.all(np.isfinite(y)) else None
         if q is None:
@@ -114,9 +153,14 @@ class Evaluator:
 
 
 def slope_jacobian(evaluator: Evaluator) -> Callable[[float, Array], Array]:
-    """Return the exact derivative (n + m, n + m) of the right side with respect to ``y = [q, u_i]``, for any t, y.
+    """Return the exact derivative, shape (n + m, n + m), of the right side by ``y = [q, u_i]``, for any t, y.
 
     By algorithmic differentiation of the equations, linear solutions included.
+
+    Parameters
+    ----------
+    evaluator : Evaluator
+        Of n coordinates and m independent speeds.
     """
     model, parts = evaluator.state.model, evaluator.state.partition
     key = ("slope jacobian", parts)
