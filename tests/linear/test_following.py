@@ -262,3 +262,12 @@ def test_no_speeds_negative_ones_and_faults(n):
     assert np.isnan(found.eigenvalues[1]).all()
     assert not found.applies[1].any()
     np.testing.assert_array_equal(found.eigenvalues[[0, 2]], modes(model, [1.0, 2.0]).eigenvalues[[0, 2]])
+
+
+def test_weave_is_one_pair_at_speed_where_a_sprung_torso_has_met_capsize():
+    sprung = {"springs": {"torso lean": 100.0}, "dampers": {"torso lean": 10.0}, "torso_lean": True}
+    model = coefficients(load_bicycle("stratos-2012"), load_rider("rider-a"), posture="leaned", **sprung)
+    found = modes(model, [5.0, 8.0, 10.0, 20.0])
+    weave = found.eigenvalues[:, :2]
+    np.testing.assert_array_equal(weave[:, 0], weave[:, 1].conj())
+    assert (np.abs(weave[:, 0].imag) == np.abs(found.eigenvalues.imag).max(axis=1)).all()

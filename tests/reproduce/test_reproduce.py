@@ -136,7 +136,7 @@ def test_date_is_the_only_change(monkeypatch):
     texts = []
     for day in ("on one day", "on another day"):
         monkeypatch.setattr(report_module, "_made", lambda day=day: day)
-        texts.append(report_module.html_report(cases, statements, [], []).replace(day, ""))
+        texts.append(report_module.html_report(cases, statements, [], [], []).replace(day, ""))
     assert texts[0] == texts[1]
 
 
@@ -146,7 +146,7 @@ def test_every_text_of_the_report_is_escaped_and_it_is_readable_on_a_phone():
         check_statements(cases, measured_case())[0], says="<script>x & y</script>", note='"<b>"'
     )
     picture = report_module.Picture("a", "<img src=x>", "s", b"png")
-    html = report_module.html_report(cases, [statement], [], [picture])
+    html = report_module.html_report(cases, [statement], [], [], [picture])
     assert "<script>" not in html
     assert "<img src=x>" not in html
     assert "&lt;script&gt;x &amp; y&lt;/script&gt;" in html

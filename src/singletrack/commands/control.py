@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Annotated
 
+import numpy as np
 import typer
 
 from singletrack.commands.model import model_from
@@ -15,12 +16,14 @@ from singletrack.control import control_summary
 from singletrack.errors import InputError
 from singletrack.files.speeds import parse_speeds
 from singletrack.output import check_writable
-from singletrack.present.control import angles_figure, control_tables
+from singletrack.present.control import angles_figure, control_tables, locus_figure
 from singletrack.present.style import figure_bytes
 
 __all__ = ["run"]
 
 _FIGURES = (".png", ".svg", ".pdf")
+#: Speeds of a root locus, so many that its dots join.
+_LOCUS = 600
 
 
 def run(
@@ -32,14 +35,15 @@ def run(
         typer.Option("--input", metavar="NAME", help="An input, such as 'steer torque'; by default all."),
     ] = None,
     plot: Annotated[Path | None, typer.Option(metavar="FILE", help="Draw the angles here: .png, .svg or .pdf.")] = None,
+    locus: Annotated[
+        Path | None, typer.Option(metavar="FILE", help="Draw the eigenvalues' way over speed here: .png, .svg or .pdf.")
+    ] = None,
     json: JsonOption = False,
 ) -> None:
     """Print where inputs lose modes, how well they reach them, and what riding costs."""
     values = parse_speeds(speeds)
-    if plot is not None:
-        if plot.suffix.lower() not in _FIGURES:
-            raise InputError(f"{plot}: unknown suffix {plot.suffix!r}, must be one of {', '.join(_FIGURES)}")
-        check_writable(plot)
+    for file in (plot, locus):
+        _check(file)
     made = model_from(bicycle, options)
     found = control_summary(made.model, values, inputs)
     if json:
@@ -48,3 +52,15 @@ def run(
         show(control_tables(found, made.title))
     if plot is not None:
         deliver(figure_bytes(angles_figure(found, made.title), plot.suffix.lower().removeprefix(".")), plot)
+    if locus is not None:
+        dense = np.linspace(values.min(), values.max(), _LOCUS)
+        figure = locus_figure(dense, made.model.modes(dense).eigenvalues, made.title)
+        deliver(figure_bytes(figure, locus.suffix.lower().removeprefix(".")), locus)
+
+
+def _check(file: Path | None) -> None:
+    if file is None:
+        return
+    if file.suffix.lower() not in _FIGURES:
+        raise InputError(f"{file}: unknown suffix {file.suffix!r}, must be one of {', '.join(_FIGURES)}")
+    check_writable(file)

@@ -13,7 +13,7 @@ from singletrack.commands.model import model_from
 from singletrack.commands.model_options import ModelOptions
 from singletrack.commands.options import JsonOption
 from singletrack.commands.printing import deliver, print_json, show
-from singletrack.control import IdentifiedMode, closed_loop, combine_modes, identify_mode
+from singletrack.control import IdentifiedMode, combine_modes, identify_mode
 from singletrack.control.agreement import ModeAgreement, compare_modes
 from singletrack.errors import InputError
 from singletrack.files.recordings import read_measured_set, read_recording
@@ -23,7 +23,6 @@ from singletrack.linear import critical_speeds, modes
 from singletrack.model import LinearModel
 from singletrack.output import check_writable
 from singletrack.parameters import Bicycle
-from singletrack.parameters.units import parse_quantity
 from singletrack.present.measured import measured_figure
 from singletrack.present.style import figure_bytes
 from singletrack.public import coefficients
@@ -42,10 +41,6 @@ def run(
     start: Annotated[float | None, typer.Option(metavar="SECONDS", help="Use each record from here on.")] = None,
     bicycle: Annotated[str | None, typer.Option(metavar="BICYCLE", help="Predict with this bicycle.")] = None,
     speed: Annotated[float | None, typer.Option(metavar="M/S", help="Forward speed of the records.")] = None,
-    feedback: Annotated[
-        list[str] | None,
-        typer.Option(metavar='"INPUT: SIGNAL=GAIN"', help='Of a controller, e.g. "steer torque: lean rate=12".'),
-    ] = None,
     plot: Annotated[Path | None, typer.Option(metavar="FILE", help="Draw points on curves: .png, .svg, .pdf.")] = None,
     json: JsonOption = False,
 ) -> None:
@@ -59,7 +54,7 @@ def run(
         return
     single = [identify_mode(*_record(file, column), start, str(file)) for file in files]
     found = combine_modes(single)
-    model = None if bicycle is None else _with_feedback(model_from(bicycle, options).model, feedback or [])
+    model = None if bicycle is None else model_from(bicycle, options).model
     predicted = None if model is None or speed is None else _nearest(model, speed, found)
     if json:
         print_json(_as_dict(files, single, found, predicted))
@@ -77,17 +72,6 @@ def _record(file: Path, column: str | None) -> tuple[np.ndarray, np.ndarray]:
     if not file.exists():
         raise InputError(f"{file}: there is no such file")
     return read_recording(read_text(file), str(file), column)
-
-
-def _with_feedback(model: LinearModel, texts: list[str]) -> LinearModel:
-    gains: dict[tuple[str, str], float] = {}
-    for text in texts:
-        target, colon, rest = text.partition(":")
-        signal, equals, gain = rest.partition("=")
-        if not colon or not equals:
-            raise InputError(f'--feedback {text!r}: must be "INPUT: SIGNAL=GAIN", e.g. "steer torque: lean rate=12"')
-        gains[target.strip(), signal.strip()] = parse_quantity(gain.strip(), "").value
-    return closed_loop(model, gains) if gains else model
 
 
 def _nearest(model: LinearModel, speed: float, found: IdentifiedMode) -> complex:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import importlib
 import warnings
 from dataclasses import dataclass
-from math import degrees
+from math import degrees, isfinite
 
 from singletrack.body.fit import elbow_angle, fit
 from singletrack.body.oddities import warn_of_oddities
@@ -13,13 +13,14 @@ from singletrack.commands.model_options import ModelOptions, pairs
 from singletrack.errors import InputError, OddityWarning
 from singletrack.library import load_bicycle, load_rider
 from singletrack.library.load import override
+from singletrack.model import LinearModel
 from singletrack.parameters import Bicycle, Rider
 from singletrack.parameters.bicycle import FRAME_GEOMETRY
 from singletrack.parameters.hints import unknown_parameter
 from singletrack.parameters.units import parse_quantity
 from singletrack.public import CoefficientMatrices
 
-__all__ = ["Made", "model_from", "seated"]
+__all__ = ["Made", "answer_words", "model_from", "seated"]
 
 
 @dataclass(frozen=True)
@@ -48,11 +49,30 @@ def model_from(bicycle: str, options: ModelOptions) -> Made:
     """
     record, rider, changed = seated(load_bicycle(bicycle), options)
     maker = importlib.import_module(f"singletrack.{options.engine.name}")  # a door: the engine's libraries are heavy
-    model = CoefficientMatrices.of(maker.coefficients(record, rider, options.sitting))
+    model = CoefficientMatrices.of(_answered(maker.coefficients(record, rider, options.sitting), options))
     rider = None if rider is None else rider.on(record)
     warn_of_oddities(record, rider)
     who = "" if rider is None else f" with {rider.name or 'rider'}, {options.sitting.title}"
-    return Made(model, record, rider, f"{record.name}{who}{changed}")
+    return Made(model, record, rider, f"{record.name}{who}{changed}{answer_words(options)}")
+
+
+def _answered(model: LinearModel, options: ModelOptions) -> LinearModel:
+    """Return the model with what is fed back to it."""
+    answer = options.answer
+    if answer is None:
+        return model
+    if isfinite(answer.limit) or answer.delay:
+        _warn("--gains: a linear model takes the gains alone, without limit and delay; `singletrack ride` takes all")
+    control = importlib.import_module("singletrack.control")  # a door: few commands need it
+    closed: LinearModel = control.closed_loop(model, answer.gains)
+    return closed
+
+
+def answer_words(options: ModelOptions) -> str:
+    """Return what is fed back, for headings."""
+    if options.answer is None:
+        return ""
+    return f", {options.gains}" if options.gains is not None else f", {'; '.join(options.feedback or [])}"
 
 
 def seated(bicycle: Bicycle, options: ModelOptions) -> tuple[Bicycle, Rider | None, str]:

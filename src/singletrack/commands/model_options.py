@@ -5,11 +5,15 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from enum import StrEnum
 from functools import cached_property
+from pathlib import Path
 from typing import Annotated
 
 import typer
 
 from singletrack.errors import InputError
+from singletrack.files.gains import gain_unit, read_gains
+from singletrack.files.source import read_text
+from singletrack.parameters import Feedback
 from singletrack.parameters.units import parse_quantity
 from singletrack.posture import ARMS, POSTURES, SHOULDERS, Options, mechanism_of, named_posture
 
@@ -71,6 +75,25 @@ class ModelOptions:
         typer.Option("--set", metavar="NAME=VALUE", help='Change a parameter, e.g. "steer_axis_tilt=18.5 deg".'),
     ] = None
 
+    feedback: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--feedback", metavar='"INPUT: SIGNAL=GAIN"', help='Of a controller, e.g. "steer torque: lean rate=12".'
+        ),
+    ] = None
+    gains: Annotated[
+        Path | None, typer.Option("--gains", metavar="FILE", help="Feedback from a file: gains, limit, delay.")
+    ] = None
+
+    @cached_property
+    def answer(self) -> Feedback | None:
+        """What the rider or a machine does about it: of the options, or of the file."""
+        if self.gains is not None:
+            if self.feedback:
+                raise InputError("--feedback and --gains: are two ways to say the same; give one of them")
+            return read_gains(read_text(self.gains), str(self.gains))
+        return Feedback(_fed_back(self.feedback)) if self.feedback else None
+
     @cached_property
     def sitting(self) -> Options:
         """How the rider sits and what is sprung, as the makers of models take it."""
@@ -106,6 +129,22 @@ def pairs(option: str, texts: list[str] | None) -> dict[str, str]:
             raise InputError(f"{option} {name}: is given twice, as {found[name]!r} and as {value!r}")
         found[name] = value
     return found
+
+
+def _fed_back(texts: list[str]) -> dict[tuple[str, str], float]:
+    gains: dict[tuple[str, str], float] = {}
+    for text in texts:
+        target, colon, rest = (part.strip() for part in text.partition(":"))
+        signal, equals, gain = (part.strip() for part in rest.partition("="))
+        if not colon or not equals:
+            raise InputError(f'--feedback {text!r}: must be "INPUT: SIGNAL=GAIN", e.g. "steer torque: lean rate=12"')
+        if (target, signal) in gains:
+            raise InputError(f"--feedback {target}: {signal}: is given twice")
+        try:
+            gains[target, signal] = parse_quantity(gain, gain_unit(signal)).value
+        except InputError as error:
+            raise error.at(f"--feedback {target}: {signal}") from None
+    return gains
 
 
 def _amounts(option: str, texts: list[str] | None, turning: str, sliding: str, hands: set[str]) -> dict[str, float]:

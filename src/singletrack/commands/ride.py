@@ -10,7 +10,7 @@ import numpy as np
 import typer
 from rich.progress import BarColumn, Progress, TextColumn
 
-from singletrack.commands.model import seated
+from singletrack.commands.model import answer_words, seated
 from singletrack.commands.model_options import ModelOptions
 from singletrack.commands.options import BicycleArgument, JsonOption
 from singletrack.commands.printing import deliver, print_json, show
@@ -66,11 +66,12 @@ def run(
         "duration": until,
         "push": number_of("--push", push, "rad/s"),
         "lean": number_of("--lean", lean, "rad"),
+        "feedback": options.answer,
         "torque": None if torque is None else read_signal(read_text(torque), str(torque)),
     }
     found = _with_progress(until, lambda tell: ride_for(record, rider, options.sitting, **given, progress=tell))
     who = "" if rider is None else f" with {rider.name or 'rider'}, {options.sitting.title}"
-    title = f"{record.name}{who}{changed}, {v:g} m/s"
+    title = f"{record.name}{who}{changed}{answer_words(options)}, {v:g} m/s"
     _write(found, title, output, plot, animate)
     if json:
         print_json(_summary(found))

@@ -47,6 +47,8 @@ def run(
         check_writable(plot)
     if (lean is None) == (radius is None):
         raise InputError("turn: found neither or both of --lean and --radius, must be one of them")
+    if options.answer is not None:
+        raise InputError("--feedback, --gains: a turn is held by constant torques; `singletrack ride` takes feedback")
     record, rider, changed = seated(load_bicycle(bicycle), options)
     warn_of_oddities(record, rider)
     v = number_of("--speed", speed, "m/s")

@@ -13,14 +13,14 @@ from singletrack.parameters.units import parse_quantity
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
-__all__ = ["read_gains"]
+__all__ = ["gain_unit", "read_gains"]
 
 _UNITS = {"limit": "N*m", "delay": "s", "period": "s"}
 _ENTRIES = ("kind", "name", *_UNITS, "gains")
 
 
 def read_gains(text: str, where: str) -> Feedback:
-    """Return the feedback that a TOML text describes.
+    r"""Return the feedback that a TOML text describes.
 
     Parameters
     ----------
@@ -37,7 +37,7 @@ def read_gains(text: str, where: str) -> Feedback:
 
     Examples
     --------
-    >>> found = read_gains('limit = 20\\n[gains."steer torque"]\\n"lean rate" = [50, -10]', "gains.toml")
+    >>> found = read_gains('limit = 20\n[gains."steer torque"]\n"lean rate" = [50, -10]', "gains.toml")
     >>> found.limit, found.gains
     (20.0, {('steer torque', 'lean rate'): [50.0, -10.0]})
     """
@@ -53,15 +53,27 @@ def read_gains(text: str, where: str) -> Feedback:
     for name, unit in _UNITS.items():
         if name in document:
             settings[name] = _number(document[name], unit, place_of(where, text, name), name)
+    gains = _gains(document.get("gains"), text, where)
     try:
-        return Feedback(_gains(document.get("gains"), text, where), **settings)
+        return Feedback(gains, **settings)
     except InputError as error:
         raise error.at(where) from None
 
 
+def gain_unit(signal: str) -> str:
+    """Return the unit of a gain of a signal.
+
+    Examples
+    --------
+    >>> gain_unit("lean rate")
+    'N*m*s/rad'
+    """
+    return "N*m*s/rad" if signal.endswith(" rate") else "N*m/rad"
+
+
 def _gains(found: object, text: str, where: str) -> dict[tuple[str, str], float | Sequence[float]]:
     if not isinstance(found, dict) or not found:
-        raise InputError(f"{where}: has no gains; must have a table such as [gains.\"steer torque\"] with lean = 10")
+        raise InputError(f'{where}: has no gains; must have a table such as [gains."steer torque"] with lean = 10')
     gains: dict[tuple[str, str], float | Sequence[float]] = {}
     for target, row in found.items():
         if not isinstance(row, dict):
@@ -75,11 +87,10 @@ def _add(
 ) -> None:
     for signal, gain in row.items():
         place = place_of(where, text, signal)
-        unit = "N*m*s/rad" if signal.endswith(" rate") else "N*m/rad"
         if isinstance(gain, list):
             gains[target, signal] = [_number(part, "", place, signal) for part in gain]
         else:
-            gains[target, signal] = _number(gain, unit, place, signal)
+            gains[target, signal] = _number(gain, gain_unit(signal), place, signal)
 
 
 def _number(found: object, unit: str, place: str, name: str) -> float:

@@ -137,7 +137,27 @@ class _Path:
             upper = _through_meeting(lower, self.block[k], self.at_low[k], self.at_high[k])
             node_roots[design], node_columns[design] = self.at_high[k], upper
         columns = _carried(node_roots, node_columns, self.highest)
-        return _columns_of_four(self.highest, np.where(columns >= _FURTHER, columns, -1))
+        further = np.where(columns >= _FURTHER, columns, -1)
+        return _columns_of_four(self.highest, _weave_made_whole(self.highest, further))
+
+
+def _weave_made_whole(roots: np.ndarray, columns: np.ndarray) -> np.ndarray:
+    """Return columns (m, N), -1 for four, in which no further coordinate has half of the pair that is weave up there.
+
+    Roots are in the order of :func:`in_order`: real ones first. In exchange for its half the coordinate takes, of the
+    real ones of the four, that which is neither capsize nor castering: neither the smallest nor the greatest.
+    """
+    result = columns.copy()
+    whole = np.roll(roots, 1, axis=-1) == roots.conj()
+    pair = (roots.imag != 0) & whole & (np.arange(roots.shape[-1]) > 0)  # the second roots of pairs
+    first = np.roll(columns, 1, axis=-1)
+    for row, second in np.argwhere(pair & ((first < 0) != (columns < 0))):
+        real = np.flatnonzero((roots[row].imag == 0) & (columns[row] < 0))
+        if len(real) == 3:
+            half = second if columns[row, second] >= 0 else second - 1
+            result[row, real[np.argsort(abs(roots[row, real]))[1]]] = columns[row, half]
+            result[row, half] = -1
+    return result
 
 
 def _padded(values: np.ndarray, start: np.ndarray, count: np.ndarray) -> np.ndarray:

@@ -14,9 +14,10 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
+    from singletrack.arrays import Array
     from singletrack.control import ControlSummary, Effort
 
-__all__ = ["angles_figure", "control_tables", "effort_figure"]
+__all__ = ["angles_figure", "control_tables", "effort_figure", "locus_figure"]
 
 
 def control_tables(found: ControlSummary, title: str) -> Group:
@@ -110,7 +111,7 @@ def effort_figure(efforts: dict[str, Effort], title: str) -> Figure:
         Of the figure.
     """
     with style():
-        figure = new_figure(7.0, 3.2)
+        figure = new_figure(7.0, 3.6)
         figure.suptitle(title, x=0.01, ha="left", fontsize=10)
         energy, torque = figure.subplots(1, 2)
         for k, (label, found) in enumerate(efforts.items()):
@@ -122,5 +123,38 @@ def effort_figure(efforts: dict[str, Effort], title: str) -> Figure:
         torque.set_ylabel("largest torque after a push (N m)")
         for axes in (energy, torque):
             axes.set_xlabel("forward speed v (m/s)")
-        torque.legend(frameon=False, fontsize=7.5, loc="upper left", bbox_to_anchor=(1.0, 1.0))
+        lines, labels = torque.get_legend_handles_labels()
+        figure.legend(lines, labels, frameon=False, fontsize=8, loc="outside lower center", ncols=2)
+    return figure
+
+
+def locus_figure(speeds: Array, eigenvalues: Array, title: str) -> Figure:
+    """Return the root locus over speed: eigenvalues in the complex plane, coloured by speed.
+
+    Parameters
+    ----------
+    speeds : array, shape (k,)
+        In m/s, ascending.
+    eigenvalues : array, shape (k, 2 n)
+        In 1/s.
+    title : str
+        Of the figure.
+    """
+    with style():
+        figure = new_figure(5.6, 4.4)
+        figure.suptitle(title, x=0.01, ha="left", fontsize=10)
+        axes = figure.subplots()
+        order = np.repeat(np.asarray(speeds, dtype=float), eigenvalues.shape[1])
+        roots = eigenvalues.ravel()
+        dots = axes.scatter(roots.real, roots.imag, c=order, s=5.0, cmap="viridis", lw=0)
+        for at, marker, words in ((0, "o", "lowest"), (-1, "s", "highest")):
+            ends = eigenvalues[at]
+            label = f"{words} speed, {float(speeds[at]):g} m/s"
+            axes.plot(ends.real, ends.imag, marker, color="black", mfc="none", ms=5, mew=0.9, label=label)
+        axes.axvline(0.0, color="black", lw=0.8)
+        axes.axhline(0.0, color="black", lw=0.5)
+        axes.set_xlabel("real part (1/s)")
+        axes.set_ylabel("imaginary part (rad/s)")
+        axes.legend(frameon=False, fontsize=7.5, loc="upper left")
+        figure.colorbar(dots, ax=axes, label="forward speed v (m/s)")
     return figure

@@ -125,10 +125,9 @@ def ride_for(
     Steering into the fall, with at most 20 N m, keeps them up.
 
     >>> from singletrack.parameters import Feedback
-    >>> steady = Feedback({("steer torque", "lean"): 60.0, ("steer torque", "lean rate"): 30.0}, limit=20.0)
-    >>> ride_for(
-    ...     load_bicycle("browser"), load_rider("rider-a"), "upright", speed=4.0, push=0.3, duration=2.0, feedback=steady
-    ... ).end
+    >>> steady = Feedback({("steer torque", "lean rate"): 20.0}, limit=20.0)
+    >>> both = load_bicycle("browser"), load_rider("rider-a")
+    >>> ride_for(*both, "upright", speed=4.0, push=0.3, duration=2.0, feedback=steady).end
     'rode on'
     """
     require_records(bicycle, rider)

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 from jinja2 import Environment, PackageLoader, StrictUndefined
 
 from singletrack.present.tables import critical_speeds_text
+from singletrack.reproduce.effort import EFFORT_HEADER, EFFORT_TEXT
 from singletrack.reproduce.statements import PAPERS
 from singletrack.version import __version__
 
@@ -88,7 +89,11 @@ def _matrix_rows(case: Case) -> list[tuple[str, list[list[str]]]]:
 
 
 def markdown_report(
-    cases: dict[str, Case], statements: list[Statement], agreements: list[Agreement], pictures: list[Picture]
+    cases: dict[str, Case],
+    statements: list[Statement],
+    agreements: list[Agreement],
+    efforts: list[list[str]],
+    pictures: list[Picture],
 ) -> str:
     """Return the report as Markdown; figures are linked, in ``figures/`` beside it.
 
@@ -100,6 +105,8 @@ def markdown_report(
         What the papers say, and whether it holds.
     agreements : list of Agreement
         Between the two derivations.
+    efforts : list of list of str
+        Rows of what riding costs.
     pictures : list of Picture
         The figures, in order.
     """
@@ -114,6 +121,9 @@ def markdown_report(
     lines += ["", "## Two derivations", "", _ENGINES, "", "| " + " | ".join(_AGREEMENT_HEADER) + " |"]
     lines.append("|---" * len(_AGREEMENT_HEADER) + "|")
     lines += ["| " + " | ".join(_agreement_cells(agreement)) + " |" for agreement in agreements]
+    lines += ["", "## What riding costs", "", EFFORT_TEXT, "", "| " + " | ".join(EFFORT_HEADER) + " |"]
+    lines.append("|---" * len(EFFORT_HEADER) + "|")
+    lines += ["| " + " | ".join(row) + " |" for row in efforts]
     lines += ["", "## Figures", ""]
     for picture in pictures:
         lines += [f"![{picture.caption}](figures/{picture.name}.png)", "", picture.caption, ""]
@@ -137,7 +147,11 @@ _TEMPLATES = Environment(
 
 
 def html_report(
-    cases: dict[str, Case], statements: list[Statement], agreements: list[Agreement], pictures: list[Picture]
+    cases: dict[str, Case],
+    statements: list[Statement],
+    agreements: list[Agreement],
+    efforts: list[list[str]],
+    pictures: list[Picture],
 ) -> str:
     """Return the report as one HTML file with everything in it; every text is escaped.
 
@@ -149,6 +163,8 @@ def html_report(
         What the papers say, and whether it holds.
     agreements : list of Agreement
         Between the two derivations.
+    efforts : list of list of str
+        Rows of what riding costs.
     pictures : list of Picture
         The figures, in order.
     """
@@ -161,6 +177,9 @@ def html_report(
         engines=_ENGINES,
         agreement_header=_AGREEMENT_HEADER,
         agreements=[_agreement_cells(agreement) for agreement in agreements],
+        effort_text=EFFORT_TEXT,
+        effort_header=EFFORT_HEADER,
+        efforts=efforts,
         pictures=pictures,
         cases=[
             {"name": case.name, "matrices": _matrix_rows(case), "speeds": critical_speeds_text(case.critical)}

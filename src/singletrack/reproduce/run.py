@@ -11,7 +11,7 @@ from singletrack.analysis.outline import turned
 from singletrack.body.skeleton import POINT_NAMES
 from singletrack.control import control_summary
 from singletrack.output import prepare_folder, write_whole
-from singletrack.present.control import angles_figure
+from singletrack.present.control import angles_figure, effort_figure
 from singletrack.present.drawings import posture_figure
 from singletrack.present.eigenvalues import eigenvalue_figure
 from singletrack.present.measured import measured_figure
@@ -20,6 +20,7 @@ from singletrack.present.style import figure_bytes
 from singletrack.present.tables import eigenvalues_csv, write_csv
 from singletrack.present.terminal import Terminal
 from singletrack.reproduce.cases import SPEEDS, Case, paper_cases
+from singletrack.reproduce.effort import TITLES, effort_rows, efforts_of
 from singletrack.reproduce.engines import compare_engines
 from singletrack.reproduce.measured import MeasuredCase, measured_case
 from singletrack.reproduce.report import Picture, html_report, markdown_report
@@ -66,7 +67,7 @@ def reproduce(output: Path) -> Path:
     columns = (TextColumn("{task.description:<34}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
     with Progress(*columns, console=Terminal(stderr=True)) as progress:
         cases, measured = paper_cases(), measured_case()
-        jobs = [*_drawings(cases), *_control_drawings(cases), _measured_drawing(measured)]
+        jobs = [*_drawings(cases), *_control_drawings(cases), *_effort_drawings(cases), _measured_drawing(measured)]
         task = progress.add_task("matrices, eigenvalues, statements", total=len(jobs) + 3)
         statements = check_statements(cases, measured)
         _write_tables(output, cases, statements)
@@ -79,8 +80,9 @@ def reproduce(output: Path) -> Path:
             pictures.append(_drawn(output, picture, draw))
             progress.advance(task)
         progress.update(task, description="report")
-        write_whole(output / "report.md", markdown_report(cases, statements, agreements, pictures))
-        write_whole(output / "report.html", html_report(cases, statements, agreements, pictures))
+        parts = (cases, statements, agreements, effort_rows(cases), pictures)
+        write_whole(output / "report.md", markdown_report(*parts))
+        write_whole(output / "report.html", html_report(*parts))
         progress.update(task, advance=1, description="done")
     return output / "report.html"
 
@@ -128,6 +130,16 @@ def _control_drawings(cases: dict[str, Case]) -> Iterator[tuple[Picture, Callabl
             return angles_figure(control_summary(cases[name].model, SPEEDS[::20], inputs, efforts=False), title)
 
         yield Picture(f"figure-journal-{number}", f"Figure {number} of the journal version. {title}.", name), draw
+
+
+def _effort_drawings(cases: dict[str, Case]) -> Iterator[tuple[Picture, Callable[[], Figure]]]:
+    """Yield for each bicycle what its balance costs over speed."""
+    for bicycle, title in TITLES.items():
+
+        def draw(bicycle: str = bicycle, title: str = title) -> Figure:
+            return effort_figure(efforts_of(cases, bicycle), title)
+
+        yield Picture(f"effort-{bicycle}", f"{title} after a push to 0.1 rad/s of lean.", bicycle), draw
 
 
 def _measured_drawing(case: MeasuredCase) -> tuple[Picture, Callable[[], Figure]]:

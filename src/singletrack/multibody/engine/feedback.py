@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from singletrack.errors import ModelError, unknown_name
+from singletrack.multibody.engine.inputs import Signal
 
 if TYPE_CHECKING:
     from singletrack.arrays import Array
-    from singletrack.multibody.engine.inputs import Signal
     from singletrack.multibody.engine.model import State
     from singletrack.multibody.engine.system import System
     from singletrack.parameters.feedback import Feedback
@@ -114,4 +114,6 @@ def _number(gain: Any, target: str, signal: str) -> float:
     try:
         return float(gain)
     except (TypeError, ValueError):
-        raise ModelError(f"gain from {signal} to {target} = {gain!r}, must be a number: type feedback.at(speed)") from None
+        raise ModelError(
+            f"gain from {signal} to {target} = {gain!r}, must be a number: type feedback.at(speed)"
+        ) from None
