@@ -65,23 +65,27 @@ def test_ten_million_eigenproblems_to_disk(benchmark: Any, tmp_path: Path) -> No
 
 
 def test_two_worker_processes(benchmark: Any, tmp_path: Path) -> None:
-    """The same sweep by one process of a pool and by two, their start included, in turn."""
+    """The same sweep by one process and by a pool of two, their start included, in turn."""
     from singletrack.sweep import load_study, run_sweep
 
     (tmp_path / "study.toml").write_text(STUDY.format(samples=TEN_MILLION))
     study = load_study(tmp_path / "study.toml")
 
-    def seconds(workers: int) -> float:
+    def seconds(workers: int) -> tuple[float, float]:
+        """Return seconds by the clock, and processor seconds of a process that computes: what an idle machine takes."""
         shutil.rmtree(tmp_path / "out.zarr", ignore_errors=True)
-        start = time.perf_counter()
+        clock, before = time.perf_counter(), os.times()
         run_sweep(study, tmp_path / "out.zarr", workers=workers)
-        return time.perf_counter() - start
+        after = os.times()
+        own, children = (after[i] + after[i + 1] - before[i] - before[i + 1] for i in (0, 2))
+        return time.perf_counter() - clock, max(own, children / workers)
 
     seconds(1), seconds(2)  # imports and compiled kernels
-    ratios = [seconds(1) / seconds(2) for _ in range(5)]
+    pairs = [(seconds(1), seconds(2)) for _ in range(5)]
     benchmark.pedantic(lambda: seconds(2), rounds=1)
-    benchmark.extra_info.update(ratios=ratios, target=1.6)
+    walls, busiest = ([round(one[i] / two[i], 2) for one, two in pairs] for i in (0, 1))
+    benchmark.extra_info.update(wall=walls, processor=busiest, target=1.6)
     print(  # noqa: T201
-        f"\ntwo processes: {statistics.median(ratios):.2f} times one {[round(r, 2) for r in ratios]}, load of the "
-        f"machine {os.getloadavg()[0]:.1f}"
+        f"\ntwo processes: {statistics.median(busiest):.2f} times one in processor seconds {busiest}, "
+        f"{statistics.median(walls):.2f} by the clock {walls}, load of the machine {os.getloadavg()[0]:.1f}"
     )

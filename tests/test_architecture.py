@@ -44,17 +44,6 @@ DOORS = {
     ("singletrack.linear.quartic.solve", "singletrack.linear.quartic.compiled"): "needs numba",
     ("singletrack.sweep.reading", "singletrack.sweep.checked_zarr"): "needs zarr",
 }
-#: Modules and functions that are longer than they should be; this only shrinks.
-TOO_LONG = {
-    "closed_form/flexible.py",
-    "multibody/bicycle/model.py",
-    "multibody/engine/connections.py",
-    "multibody/engine/elements.py",
-    "multibody/engine/linearise.py",
-    "reproduce/statements/founding.py",
-}
-#: Not yet as it should be; this only shrinks: a module's name, what is imported within one of its functions.
-TO_OPEN = {tuple(line.split()) for line in Path(__file__).with_name("imports_to_open.txt").read_text().splitlines()}
 
 
 def name_of(path: Path) -> str:
@@ -69,14 +58,15 @@ def is_type_checking(node: ast.AST) -> bool:
     return isinstance(node, ast.If) and ast.unparse(node.test).endswith("TYPE_CHECKING")
 
 
-def imports(node: ast.AST, within: bool = False):
-    """Yield (import statement, whether within a function), those for type checkers left out."""
+def imports(node: ast.AST, within: bool = False, typing: bool = True):
+    """Yield (import statement, whether within a function), with or without those for type checkers."""
     for child in ast.iter_child_nodes(node):
-        if is_type_checking(child):
+        if is_type_checking(child) and not typing:
             continue
         if isinstance(child, ast.Import | ast.ImportFrom):
             yield child, within
-        yield from imports(child, within or isinstance(child, ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda))
+        inside = within or isinstance(child, ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda)
+        yield from imports(child, inside, typing)
 
 
 def targets(statement: ast.Import | ast.ImportFrom, resolve: bool = True) -> list[str]:
@@ -100,11 +90,11 @@ def imports_within_functions() -> set[tuple[str, str]]:
 
 
 def test_imports_within_functions_have_a_reason():
-    without = imports_within_functions() - set(DOORS) - TO_OPEN
+    without = imports_within_functions() - set(DOORS)
     assert without == set(), "import at the top of the module, or say why not in DOORS"
 
 
-def test_no_import_circle_even_within_functions():
+def test_no_import_circle_even_within_functions_and_for_type_checkers():
     graph: dict[str, set[str]] = {}
     for path, tree in TREES.items():
         module = name_of(path)
@@ -126,15 +116,12 @@ COMPUTING = ("analysis", "body", "closed_form", "library", "linear", "measuring"
 
 def test_present_computes_nothing():
     for path in (path for path in PATHS if path.is_relative_to(SOURCE / "present")):
-        for statement, _ in imports(TREES[path]):
+        for statement, _ in imports(TREES[path], typing=False):
             rooms = {target.split(".")[1] for target in targets(statement) if target.startswith("singletrack.")}
             assert not rooms & set(COMPUTING), (path.name, ast.unparse(statement))
 
 
-SHORT = [path for path in PATHS if path.relative_to(SOURCE).as_posix() not in TOO_LONG]
-
-
-@pytest.mark.parametrize("path", SHORT, ids=lambda path: path.relative_to(SOURCE).as_posix())
+@pytest.mark.parametrize("path", PATHS, ids=lambda path: path.relative_to(SOURCE).as_posix())
 def test_nothing_needs_scrolling(path):
     assert len(path.read_text(encoding="utf-8").splitlines()) <= 300
     for node in ast.walk(TREES[path]):

@@ -11,7 +11,8 @@ from singletrack import InputError, coefficients, load_bicycle, load_rider
 from singletrack.closed_form import coefficients as closed_form
 from singletrack.files.toml_write import write_toml
 from singletrack.multibody import coefficients as multibody
-from singletrack.posture import Options
+from singletrack.parameters.flexible import soft_hinges
+from singletrack.posture import Options, steer_axis
 from singletrack.posture.shipped import load_posture
 
 FORK = {"fork_bending_stiffness": 2e3, "fork_bending_damping": 3.0, "fork_hinge_x": 0.95, "fork_hinge_z": -0.65}
@@ -98,6 +99,19 @@ def test_a_batch_is_its_designs():
             np.testing.assert_allclose(whole[i], getattr(coefficients(one, load_rider("rider-a")), name), rtol=1e-13)
 
 
+def test_one_line_is_enough():
+    """A stiffness alone: the hinge goes through the fork's crown, on the steer axis, a wheel's radius above the hub."""
+    bicycle = load_bicycle("benchmark")
+    (hinge,) = soft_hinges(bicycle.replace(fork_bending_stiffness=4e3))
+    foot, axis = steer_axis(bicycle)
+    assert np.linalg.norm(np.cross(hinge.point - foot, axis)) < 1e-12
+    hub = np.array([bicycle.wheel_base, 0.0, -bicycle.front_wheel_radius])
+    assert (hub - hinge.point) @ axis == pytest.approx(bicycle.front_wheel_radius)
+    assert hinge.axis @ axis == pytest.approx(0.0, abs=1e-12)
+    soft = bicycle.replace(fork_bending_stiffness=4e3, frame_torsion_stiffness=4e3)
+    assert_equal(coefficients(soft), multibody(soft))
+
+
 def test_the_potential_is_symmetric_and_mass_positive():
     model = coefficients(load_bicycle("stratos").replace(**FORK, **FRAME))
     np.testing.assert_allclose(model.K0, model.K0.T, rtol=1e-12)
@@ -105,9 +119,9 @@ def test_the_potential_is_symmetric_and_mass_positive():
     assert np.linalg.eigvalsh(model.M)[0] > 0
 
 
-def test_a_hinge_needs_its_place():
-    with pytest.raises(InputError, match="fork_bending_stiffness needs fork_hinge_x and fork_hinge_z"):
-        load_bicycle("benchmark").replace(fork_bending_stiffness=2e3)
+def test_a_hinge_needs_a_whole_place():
+    with pytest.raises(InputError, match="fork_hinge_z needs fork_hinge_x too"):
+        load_bicycle("benchmark").replace(fork_bending_stiffness=2e3, fork_hinge_z=-0.6)
     with pytest.raises(InputError, match="greater than zero"):
         load_bicycle("benchmark").replace(**FORK | {"fork_bending_stiffness": 0.0})
 
@@ -118,3 +132,18 @@ def test_a_file_says_it_in_one_line_and_comes_back(tmp_path):
     path.write_text(write_toml(soft))
     assert "fork_bending_stiffness =" in path.read_text()
     assert load_bicycle(str(path)).values() == pytest.approx(soft.values())
+
+
+def test_hinges_anywhere_agree():
+    """Random hinges on random bicycles, both derivations."""
+    rng = np.random.default_rng(1015)
+    for name in ("benchmark", "stratos", "browser") * 2:
+        hinges = {
+            f"{part}_hinge_{what}": float(rng.uniform(*span))
+            for part in ("frame", "fork")
+            for what, span in (("x", (0.0, 1.2)), ("z", (-1.0, 0.1)), ("tilt", (-1.2, 1.2)))
+        }
+        stiffness = {"frame_torsion_stiffness": 3e3, "fork_bending_stiffness": 1e3, "fork_bending_damping": 2.0}
+        geometry = {"trail": float(rng.uniform(-0.05, 0.1)), "steer_axis_tilt": float(rng.uniform(-0.3, 0.6))}
+        bicycle = load_bicycle(name).replace(**hinges, **stiffness, **geometry)
+        assert_equal(coefficients(bicycle), multibody(bicycle))

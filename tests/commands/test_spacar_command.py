@@ -55,6 +55,16 @@ def test_json(file):
     assert (linear["inputs"], linear["outputs"]) == (["1: e 1 1"], ["1: e 1 1"])
 
 
+def test_history(file, tmp_path):
+    assert run(file, "--history", tmp_path / "motion.csv").returncode == 0
+    lines = (tmp_path / "motion.csv").read_text().splitlines()
+    assert len(lines) == 1 + 5
+    last = dict(zip(lines[0].split(","), map(float, lines[-1].split(",")), strict=True))
+    assert last["time"] == 0.4
+    assert last["e 1 1"] == pytest.approx(0.001 * np.cos(np.sqrt(9.81) * 0.4), rel=1e-5)
+    assert run(file, "--history", tmp_path).returncode == 2
+
+
 def test_text_and_listing(file):
     done = run(file)
     assert done.returncode == 0

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from conftest import random_bicycle
+from designs import random_bicycle
 from singletrack import CoefficientMatrices, InputError, coefficients, load_bicycle, load_rider
 from singletrack.linear.characteristic import characteristic_polynomial
 from singletrack.linear.meetings import find_meetings, meeting_speeds

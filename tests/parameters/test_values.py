@@ -63,7 +63,7 @@ class Metres:
         ({}, "is not a number"),
         (None, "is missing"),
     ],
-    ids=repr,
+    ids=lambda value: str(value)[:40] if not isinstance(value, Metres) else "a number with a unit",
 )
 def test_what_is_no_number_is_refused_by_name(value, says):
     with pytest.raises(InputError, match=says) as caught:

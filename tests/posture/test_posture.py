@@ -11,7 +11,7 @@ from singletrack.posture import Options, seat, slaved_bodies, steered_skeleton
 from singletrack.posture.motion import joint_motion
 
 RIDER = load_rider("rider-a")
-PASSIVE = [("stratos", "leaned"), ("browser", "leaned"), ("stratos", "upright"), ("browser", "upright")]
+PASSIVE = [(name, posture) for posture in ("leaned", "upright", "moore-2012") for name in ("stratos", "browser")]
 
 
 @pytest.mark.parametrize(("name", "posture"), PASSIVE)

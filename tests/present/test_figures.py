@@ -11,10 +11,13 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Polygon
 from matplotlib.text import Text
 
-from conftest import COMBINATIONS, shipped_model
+from designs import COMBINATIONS, shipped_model
+from linear.torso import with_torso
+from singletrack import linear, load_bicycle
 from singletrack.present.eigenvalues import draw_eigenvalues, eigenvalue_figure
 from singletrack.present.phasors import phasor_figure
 from singletrack.present.style import figure_bytes
+from singletrack.present.tables import eigenvalues_csv, eigenvalues_table
 
 
 def shown_texts(figure):
@@ -128,3 +131,17 @@ def test_portable_documents_are_the_same_bytes_each_time():
     modes, critical = model.modes([0.0, 5.0, 10.0]), model.critical_speeds()
     one, two = (figure_bytes(eigenvalue_figure(modes, critical, "title"), "pdf") for _ in range(2))
     assert one == two
+
+
+def test_a_further_freedom_has_its_own_curves_and_columns():
+    """Torso lean in the table, the CSV and the figure beside the bicycle's own modes."""
+    model = with_torso(load_bicycle("stratos"), spring=500.0, damper=30.0)
+    modes, critical = linear.modes(model, np.linspace(0.0, 10.0, 41)), linear.critical_speeds(model)
+    figure = eigenvalue_figure(modes, critical, "torso")
+    colours = {line.get_color() for line in figure.axes[0].lines}
+    assert len(colours) >= 5
+    header, first = eigenvalues_csv(modes).splitlines()[:2]
+    assert header.endswith("torso_lean_1_real,torso_lean_1_imag,torso_lean_2_real,torso_lean_2_imag")
+    assert len(first.split(",")) == 13
+    columns = eigenvalues_table(modes, "title").renderables[0].columns
+    assert columns[-2].header.text == "torso lean"

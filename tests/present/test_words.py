@@ -8,7 +8,7 @@ import math
 import numpy as np
 import pytest
 
-from conftest import shipped_model
+from designs import shipped_model
 from singletrack.present.words import critical_speed_lines, range_text, speed_text
 
 

@@ -205,6 +205,30 @@ def test_a_journal_that_was_only_begun(study: Study, store: Path, tmp_path: Path
     assert files_of(tmp_path / "out.zarr") == files_of(store)
 
 
+def test_what_a_kill_at_the_very_end_leaves_is_tidied(study: Study, store: Path, tmp_path: Path, capsys: Any) -> None:
+    interrupted(study, tmp_path / "out.zarr", CHUNK)
+    partial = tmp_path / "out.zarr.partial"
+    shutil.rmtree(partial / "data.zarr")  # moved to its place, by another name here
+    store.rename(tmp_path / "out.zarr")
+    run(tmp_path / "study.toml", tmp_path / "out.zarr")
+    assert "is the finished sweep" in " ".join(capsys.readouterr().err.split())
+    assert not partial.exists()
+    assert check_sweep(tmp_path / "out.zarr").damages == ()
+
+
+@pytest.mark.parametrize("what", ["a file", "a link"])
+def test_something_else_where_the_sweep_is_collected(study: Study, tmp_path: Path, what: str) -> None:
+    partial = tmp_path / "out.zarr.partial"
+    if what == "a file":
+        partial.write_text("mine")
+    else:
+        (tmp_path / "elsewhere").mkdir()
+        partial.symlink_to(tmp_path / "elsewhere")
+    with pytest.raises(InputError, match="is not a folder"):
+        run_sweep(study, tmp_path / "out.zarr", workers=1)
+    assert partial.is_symlink() or partial.read_text() == "mine"
+
+
 def test_not_computed_never_and_faulty_are_three_things(study: Study, store: Path, tmp_path: Path) -> None:
     output = tmp_path / "out.zarr"
     interrupted(study, output, CHUNK)

@@ -126,7 +126,8 @@ def test_the_order_of_vary_numbers_the_designs(study: Study, tmp_path: Path) -> 
     run_sweep(study, output, workers=1)
     run_sweep(turned, tmp_path / "turned.zarr", workers=1)
     one, other = open_sweep(output), open_sweep(tmp_path / "turned.zarr")
-    np.testing.assert_array_equal(one.M.values, other.M.transpose(*one.M.dims).values)
+    # Elsewhere in a batch the last bit may differ; in the same place of the same chunk it does not (test_kills.py).
+    np.testing.assert_allclose(one.M.values, other.M.transpose(*one.M.dims).values, rtol=1e-12)
 
 
 @pytest.mark.parametrize("name", ["singletrack", "numpy", "scipy"])

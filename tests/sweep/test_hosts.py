@@ -39,7 +39,9 @@ samples = 60000
 trail = { from = "30 mm", to = "80 mm" }
 upper_arm_length = { from = "25 cm", to = "35 cm" }
 """
-HOSTS = {"sts": "10.83.7.1", "stw1": "10.83.7.2", "stw2": "10.83.7.3", "stc": "10.83.7.4"}
+#: Names of this process's own, so that several may run at once.
+PREFIX = f"st{os.getpid()}"
+HOSTS = {"s": "10.83.7.1", "w1": "10.83.7.2", "w2": "10.83.7.3", "c": "10.83.7.4"}
 #: A lost host is given up after ten seconds; by default Dask waits five minutes.
 QUICK = {"DASK_DISTRIBUTED__SCHEDULER__WORKER_TTL": "10s", "DASK_DISTRIBUTED__WORKER__DAEMON": "False"}
 
@@ -56,26 +58,28 @@ class Network:
         self.started: list[subprocess.Popen[str]] = []
 
     def begin(self) -> None:
-        ip("netns", "add", "stswitch")
-        ip("-n", "stswitch", "link", "add", "sw", "type", "bridge")
-        ip("-n", "stswitch", "link", "set", "sw", "up")
+        switch = f"{PREFIX}sw"
+        ip("netns", "add", switch)
+        ip("-n", switch, "link", "add", "sw", "type", "bridge")
+        ip("-n", switch, "link", "set", "sw", "up")
         for name, address in HOSTS.items():
-            ip("netns", "add", name)
-            ip("-n", "stswitch", "link", "add", name, "type", "veth", "peer", "name", "eth0", "netns", name)
-            ip("-n", "stswitch", "link", "set", name, "master", "sw", "up")
-            ip("-n", name, "address", "add", f"{address}/24", "dev", "eth0")
-            ip("-n", name, "link", "set", "eth0", "up")
-            ip("-n", name, "link", "set", "lo", "up")
+            space = PREFIX + name
+            ip("netns", "add", space)
+            ip("-n", switch, "link", "add", name, "type", "veth", "peer", "name", "eth0", "netns", space)
+            ip("-n", switch, "link", "set", name, "master", "sw", "up")
+            ip("-n", space, "address", "add", f"{address}/24", "dev", "eth0")
+            ip("-n", space, "link", "set", "eth0", "up")
+            ip("-n", space, "link", "set", "lo", "up")
 
     def end(self) -> None:
         for process in self.started:
             process.kill()
             process.wait()
-        for name in ("stswitch", *HOSTS):
-            subprocess.run(["ip", "netns", "delete", name], check=False, capture_output=True)  # noqa: S607
+        for name in ("sw", *HOSTS):
+            subprocess.run(["ip", "netns", "delete", PREFIX + name], check=False, capture_output=True)  # noqa: S607
 
     def start(self, host: str, *arguments: str) -> subprocess.Popen[str]:
-        command = ["ip", "netns", "exec", host, sys.executable, "-m", *arguments]
+        command = ["ip", "netns", "exec", PREFIX + host, sys.executable, "-m", *arguments]
         with (self.folder / f"{host}-{len(self.started)}.log").open("w") as log:
             process = subprocess.Popen(
                 command, env=self.environment, stdout=log, stderr=log, text=True, cwd=self.folder
@@ -84,16 +88,16 @@ class Network:
         return process
 
     def cluster(self, scheme: str) -> str:
-        address = f"{scheme}://{HOSTS['sts']}:8786"
+        address = f"{scheme}://{HOSTS['s']}:8786"
         self.start(
-            "sts",
+            "s",
             "distributed.cli.dask_scheduler",
             "--host",
-            f"{scheme}://{HOSTS['sts']}",
+            f"{scheme}://{HOSTS['s']}",
             "--no-dashboard",
             "--no-jupyter",
         )
-        for host in ("stw1", "stw2"):
+        for host in ("w1", "w2"):
             self.start(
                 host,
                 "distributed.cli.dask_worker",
@@ -110,10 +114,10 @@ class Network:
         return address
 
     def connect(self, host: str, *, to: bool) -> None:
-        ip("-n", "stswitch", "link", "set", host, "up" if to else "down")
+        ip("-n", f"{PREFIX}sw", "link", "set", host, "up" if to else "down")
 
     def sweep(self, address: str) -> subprocess.Popen[str]:
-        return self.start("stc", "singletrack", "sweep", "study.toml", "--scheduler", address)
+        return self.start("c", "singletrack", "sweep", "study.toml", "--scheduler", address)
 
     def said(self) -> str:
         return "\n".join(f"{path.name}: {path.read_text()}" for path in sorted(self.folder.glob("*.log")))
@@ -158,12 +162,12 @@ def finishes(network: Network, process: Any, right: dict[str, bytes]) -> None:
 def test_three_hosts_of_which(network: Network, right: dict[str, bytes], lost: str) -> None:
     process = network.sweep(network.cluster("tcp"))
     network.wait_for_chunks(process, 3)
-    network.connect("stw1", to=False)
+    network.connect("w1", to=False)
     if lost != "a host":
-        network.connect("stw2", to=False)
+        network.connect("w2", to=False)
         time.sleep(10)
-        network.connect("stw1", to=True)
-        network.connect("stw2", to=True)
+        network.connect("w1", to=True)
+        network.connect("w2", to=True)
     finishes(network, process, right)
     assert "is not protected" in network.said()
 
@@ -176,8 +180,8 @@ def test_a_scheduler_that_is_lost_is_told_and_the_sweep_goes_on_without(
     network.started[0].kill()
     assert process.wait(timeout=90) == 2, network.said()
     assert "is lost; what is on disk is kept: run the same command again to go on" in network.said()
-    assert "Traceback" not in (network.folder / "stc-3.log").read_text()
-    again = network.start("stc", "singletrack", "sweep", "study.toml", "--workers", "1")
+    assert "Traceback" not in (network.folder / "c-3.log").read_text()
+    again = network.start("c", "singletrack", "sweep", "study.toml", "--workers", "1")
     finishes(network, again, right)
 
 
@@ -238,7 +242,7 @@ def test_three_hosts_with_tls(network: Network, right: dict[str, bytes]) -> None
     (network.folder / "study.zarr").rename(network.folder / "before.zarr")
     stranger = network.sweep(address)
     assert stranger.wait(timeout=60) == 2
-    said = (network.folder / f"stc-{len(network.started) - 1}.log").read_text()
+    said = (network.folder / f"c-{len(network.started) - 1}.log").read_text()
     assert "no Dask scheduler answers" in said
     assert "DASK_DISTRIBUTED__COMM__TLS__CA_FILE" in said
     assert "Traceback" not in said

@@ -40,12 +40,12 @@ seed = 5
 trail = { from = "30 mm", to = "80 mm" }
 upper_arm_length = { from = "10 cm", to = "35 cm" }
 """
-PIECE = 64  # designs in a stretch, here: many stretches
+CHUNK = 64  # designs in a chunk, here: many chunks
 
 
 @pytest.fixture(autouse=True)
-def small_pieces(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(chunks, "_DESIGNS", PIECE)
+def small_chunks(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(chunks, "_DESIGNS", CHUNK)
 
 
 def make_study(folder: Path, text: str = TEXT) -> Study:
@@ -147,7 +147,7 @@ def test_killed_at_any_moment_it_loses_and_repeats_nothing(study: Study, whole: 
     journal = partial / "journal.jsonl"
     before: list[str] = []
     for wanted in (1, 6, 13):
-        arguments = [sys.executable, "-c", KILLABLE, str(tmp_path / "study.toml"), str(output), str(PIECE)]
+        arguments = [sys.executable, "-c", KILLABLE, str(tmp_path / "study.toml"), str(output), str(CHUNK)]
         child = subprocess.Popen(arguments)
         deadline = time.monotonic() + 60
         while time.monotonic() < deadline and child.poll() is None:
@@ -164,10 +164,10 @@ def test_killed_at_any_moment_it_loses_and_repeats_nothing(study: Study, whole: 
     finished = {json.loads(line)["start"] for line in before[1:]}
     seen: list[tuple[int, int]] = []
     summary = run_sweep(study, output, workers=1, progress=lambda done, resumed: seen.append((done, resumed)))
-    sizes = [min(PIECE, 1500 - start) for start in range(0, 1500, PIECE) if start in finished]
+    sizes = [min(CHUNK, 1500 - start) for start in range(0, 1500, CHUNK) if start in finished]
     assert seen[0] == (sum(sizes), sum(sizes))
     assert summary.resumed == sum(sizes)
-    assert len(seen) - 1 == len(range(0, 1500, PIECE)) - len(finished)  # nothing repeated
+    assert len(seen) - 1 == len(range(0, 1500, CHUNK)) - len(finished)  # nothing repeated
     same(open_sweep(output), whole)
 
 

@@ -66,7 +66,17 @@ def random_designs(count, seed):
             more |= {"upper_arm_length": (0.0, 0.15), "lower_arm_length": (0.0, 0.15)}
             changed |= {n: float(own.values()[n] * (1 + random.uniform(*ends))) for n, ends in more.items()}
         speed = float(random.uniform(0.2, 10))
-        changes = [{"bicycle": name, "rider": who, "posture": posture, **(options or {}), **changed, "speed": speed}]
+        changes = [
+            {
+                "bicycle": name,
+                "rider": who,
+                "torso_lean": False,
+                "posture": posture,
+                **(options or {}),
+                **changed,
+                "speed": speed,
+            }
+        ]
         riders = {n: v for n, v in changed.items() if n in own.values()}
         person = own.replace(**riders) if who else None
         try:
@@ -81,6 +91,9 @@ WAYS = [
     ("rider-a", "leaned", {"arms": "straight"}),
     ("rider-a", "leaned", {"arms": "bent"}),
     ("rider-a", "upright", None),
+    ("rider-a", "rigid", {"torso_lean": True}),
+    ("rider-a", "leaned", {"arms": "straight", "torso_lean": True}),
+    ("rider-a", "upright", {"torso_lean": True}),
 ]
 
 
@@ -145,6 +158,25 @@ def test_every_control_answers(browser):
     done = browser.execute_script(script)
     assert len(done) > 10
     assert [name for name, moved in done if not moved] == []
+
+
+def test_curves_are_drawn_whatever_was_done_just_before(browser):
+    """A plot that is made and changed at once still shows weave: blue pixels on its canvas."""
+    script = """
+      const done = arguments[0];
+      window.singletrack.set({ bicycle: "browser", rider: "rider-a", posture: "upright", torso_lean: true });
+      document.getElementById("pin").click();
+      window.singletrack.set({ trail: 0.03 });
+      setTimeout(() => {
+        const canvas = document.querySelector("#chart canvas");
+        const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+        let blue = 0;
+        for (let k = 0; k < data.length; k += 4)
+          if (data[k] < 40 && Math.abs(data[k + 1] - 0x72) < 40 && data[k + 2] > 140 && data[k + 3] > 200) blue++;
+        done(blue);
+      }, 300);
+    """
+    assert browser.execute_async_script(script) > 300
 
 
 def test_what_cannot_be_is_said_and_the_last_design_stays(browser):

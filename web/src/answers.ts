@@ -1,13 +1,15 @@
 /** From a design to all that is shown: equations, named modes, critical speeds, or why there are none. */
 
-import { type LinearModel } from "./characteristic";
+import { isUndamped, type LinearModel } from "./characteristic";
 import type { Curves } from "./chart";
 import type { Complex } from "./complex";
 import { type CriticalSpeeds, criticalSpeeds } from "./critical";
+import { crossingsOf } from "./crossings";
 import { describe, type Values, type Variant } from "./data";
 import { type Design, faultOf, TOP_SPEED, valuesOf, variantOf } from "./design";
 import { equationsOf, inputsOf } from "./equations";
-import { Modes, NAMES } from "./modes";
+import { FollowedModes } from "./followed";
+import { Modes } from "./modes";
 
 export interface Answer {
   design: Design;
@@ -29,16 +31,17 @@ export function answer(design: Design): Answer | string {
   if (fault) return fault;
   const { model, fault: reason } = equationsOf(variant, values);
   if (reason) return reason;
-  const modes = new Modes(model);
+  const plain = model.coordinates.length === 2 && isUndamped(model);
+  const modes = plain ? new Modes(model) : new FollowedModes(model);
   return {
     design,
     variant,
     values,
     inputs: inputsOf(variant, values),
     model,
-    names: NAMES,
+    names: modes.names,
     modesAt: (speed) => modes.at(speed),
-    critical: criticalSpeeds(model),
+    critical: plain ? criticalSpeeds(model) : crossingsOf(model),
   };
 }
 

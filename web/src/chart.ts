@@ -63,8 +63,7 @@ export class Chart {
     this.speed = speed;
     const data = this.columns(curves, overlays);
     if (this.plot !== null && this.plot.root.dataset.shape === shape) {
-      this.plot.setData(data, false);
-      this.plot.redraw();
+      this.plot.setData(data); // with its scales: a plot made a moment ago may not have any yet
       return;
     }
     this.plot?.destroy();

@@ -50,8 +50,7 @@ interface Given {
 export type Program = (inputs: ArrayLike<number>, outputs: Float64Array) => void;
 
 export const DESCRIPTIONS = manifest.parameters as Description[];
-/** Modes are followed for two freedoms so far. */
-export const VARIANTS = (manifest.variants as Variant[]).filter((variant) => variant.coordinates.length === 2);
+export const VARIANTS = manifest.variants as Variant[];
 /** Share by which a principal moment may exceed the sum of the other two: room for measurement errors. */
 export const FLATNESS = manifest.flatness as number;
 export const WORDS = manifest.allowed as Record<string, string>;

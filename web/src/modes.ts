@@ -10,6 +10,7 @@ const WEAVES = 2;
 
 /** Follows the four modes of one design; at any speed all four roots, in the order of NAMES. */
 export class Modes {
+  readonly names = NAMES;
   private readonly p: Quartic;
   private readonly meetings: Meetings;
   private readonly counts: number[];

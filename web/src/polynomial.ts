@@ -78,7 +78,7 @@ export function roots(coefficients: readonly number[]): Complex[] {
 }
 
 /** Roots of a real polynomial are real or come in pairs: nearest conjugates are made exact, the rest real. */
-function paired(found: readonly Complex[]): Complex[] {
+export function paired(found: readonly Complex[]): Complex[] {
   const result: Complex[] = [];
   const left = [...found].sort((a, b) => Math.abs(b.im) - Math.abs(a.im));
   while (left.length > 0) {

@@ -7,24 +7,25 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from singletrack.analysis.designs import Design
 from singletrack.arrays import complex_steps
 from singletrack.body.oddities import warn_of_oddities
-from singletrack.closed_form import coefficients
 from singletrack.errors import InputError
 from singletrack.linear import eigenvalues
 from singletrack.model import LinearModel
+from singletrack.posture import Options
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from singletrack.arrays import Array
     from singletrack.parameters import Bicycle, Rider
-    from singletrack.posture import Options
 
-__all__ = ["Derivatives", "derivatives", "shifted"]
+__all__ = ["Derivatives", "derivatives", "derivatives_of", "shifted"]
 
 _STEP = 1e-30
 _MATRICES = ("M", "C1", "K0", "K2")
+_SPRUNG = ("C0", "S0")
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,11 +35,12 @@ class Derivatives:
     Attributes
     ----------
     model : LinearModel
-        Of shape (2, 2) each.
+        Of shape (n, n) each.
     names : tuple of str
         The k parameters.
-    matrices : dict of str to array, shape (k, 2, 2)
-        Derivatives of ``M, C1, K0, K2``, in their unit per SI unit of the parameter.
+    matrices : dict of str to array, shape (k, n, n)
+        Derivatives of ``M, C1, K0, K2``, and of ``C0, S0`` where there are springs or dampers, in their unit per SI
+        unit of the parameter.
     gravity : array, shape (k,)
         Derivative of gravity: one for gravity itself, else zero.
     """
@@ -49,11 +51,20 @@ class Derivatives:
     gravity: np.ndarray
 
     def _pencil(self, speeds: Array, roots: Array) -> tuple[np.ndarray, np.ndarray]:
-        """Return the adjugate of P(s) = M s² + v C1 s + g K0 + v² K2 and the slope d det P / ds, for s (..., )."""
-        m, v, s = self.model, np.asarray(speeds)[..., None, None], np.asarray(roots)[..., None, None]
-        P = m.M * s**2 + v * m.C1 * s + m.gravity * m.K0 + v**2 * m.K2
-        adjugate = np.stack([P[..., 1, 1], -P[..., 0, 1], -P[..., 1, 0], P[..., 0, 0]], -1).reshape(P.shape)
-        return adjugate, np.einsum("...ij,...ji->...", adjugate, 2 * m.M * s + v * m.C1)
+        """Return what is proportional to the adjugate of P(s), and with it the slope d det P / ds, for s (...).
+
+        P(s) = M s² + (C0 + v C1) s + S0 + g K0 + v² K2. With more than two freedoms: the outer product of the vectors
+        that P takes to zero from the right and from the left, which the adjugate is at a simple root but for a factor.
+        """
+        m, v, s = self.model, np.asarray(speeds), np.asarray(roots)[..., None, None]
+        damping = m.damping(v)
+        P = m.M * s**2 + damping * s + m.stiffness(v)
+        if m.freedoms == 2:
+            adjugate = np.stack([P[..., 1, 1], -P[..., 0, 1], -P[..., 1, 0], P[..., 0, 0]], -1).reshape(P.shape)
+        else:
+            left, _, right = np.linalg.svd(np.where(np.isfinite(P), P, 0.0))
+            adjugate = np.conj(right[..., -1, :])[..., :, None] * np.conj(left[..., :, -1])[..., None, :]
+        return adjugate, np.einsum("...ij,...ji->...", adjugate, 2 * m.M * s + damping)
 
     def eigenvalues(self, speeds: Array, roots: Array) -> np.ndarray:
         """Return the derivatives (..., k) of roots (...) at speeds broadcastable to (...), in 1/s per SI unit.
@@ -65,6 +76,8 @@ class Derivatives:
         d = self.matrices
         stiffness = self.gravity[:, None, None] * np.asarray(self.model.K0) + self.model.gravity * d["K0"]
         change = d["M"] * s**2 + v * d["C1"] * s + stiffness + v**2 * d["K2"]
+        if "C0" in d:
+            change = change + d["C0"] * s + d["S0"]
         with np.errstate(divide="ignore", invalid="ignore"):
             found: np.ndarray = -np.einsum("...ij,...kji->...k", adjugate, change) / slope[..., None]
         return found
@@ -108,7 +121,17 @@ class Derivatives:
 def shifted(
     bicycle: Bicycle, rider: Rider | None, names: Sequence[str], shifts: np.ndarray
 ) -> tuple[Bicycle, Rider | None]:
-    """Return a batch of n designs with parameters changed by shifts (n, k), SI."""
+    """Return a batch of n designs with parameters changed by shifts (n, k), SI.
+
+    Parameters
+    ----------
+    bicycle, rider : Bicycle, Rider or None
+        Single designs.
+    names : sequence of str
+        The k parameters that change; those of the rider may be among them.
+    shifts : array, shape (n, k)
+        What is added, SI.
+    """
 
     def changes(record: Bicycle | Rider) -> dict[str, Array]:
         own = record.values()
@@ -151,16 +174,35 @@ def derivatives(
     >>> slopes.matrices["K0"][:, 0, 0].tolist()
     [85.0, -0.9]
     """
+    warn_of_oddities(bicycle, rider)
+    return derivatives_of(Design(bicycle, rider, Options.of(options)), names)
+
+
+def derivatives_of(design: Design, names: Sequence[str]) -> Derivatives:
+    """Return the coefficient matrices of a design and their derivatives with respect to parameters.
+
+    Parameters
+    ----------
+    design : Design
+        A single one.
+    names : sequence of str
+        Parameters of bicycle, rider or posture (``spring at JOINT``, ``damper at JOINT``, ``elbow angle``).
+
+    Raises
+    ------
+    InputError
+        As :func:`derivatives`.
+    """
     names = tuple(names)
-    known = {**bicycle.values(), **({} if rider is None else rider.values())}
+    known = design.values()
     for name in names:
         if name not in known:
             raise InputError(f"{name} is no parameter of this bicycle or rider (known: {', '.join(known)})")
-    warn_of_oddities(bicycle, rider)
-    model = coefficients(bicycle, rider, options)
+    model = design.model()
     with complex_steps():
-        moved = coefficients(*shifted(bicycle, rider, names, 1j * _STEP * np.eye(len(names))), options)
-    shape = (len(names), 2, 2)
-    matrices = {n: np.broadcast_to(np.imag(getattr(moved, n)) / _STEP, shape) for n in _MATRICES}
+        moved = design.shifted(names, 1j * _STEP * np.eye(len(names))).model()
+    shape = (len(names), model.freedoms, model.freedoms)
+    wanted = _MATRICES if model.is_undamped else (*_MATRICES, *_SPRUNG)
+    matrices = {n: np.broadcast_to(np.imag(getattr(moved, n)) / _STEP, shape) for n in wanted}
     gravity = np.array([float(name == "gravity") for name in names])
     return Derivatives(model, names, matrices, gravity)

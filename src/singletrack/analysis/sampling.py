@@ -61,7 +61,14 @@ class Sample:
         real, imaginary = roots.real.std(axis=0, ddof=1), roots.imag.std(axis=0, ddof=1)
         never_linear = np.zeros(real.shape, dtype=bool)
         return EigenvalueUncertainty(
-            nominal.speeds, nominal.eigenvalues, real, imaginary, intervals[0], intervals[1], never_linear
+            nominal.speeds,
+            nominal.eigenvalues,
+            real,
+            imaginary,
+            intervals[0],
+            intervals[1],
+            never_linear,
+            nominal.names,
         )
 
     def critical_speeds(self) -> CriticalSpeedUncertainty:

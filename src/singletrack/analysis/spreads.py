@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from singletrack.errors import InputError
-from singletrack.model import LinearModel
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
     from singletrack.arrays import Array
+    from singletrack.model import LinearModel
     from singletrack.parameters import Bicycle, Rider
 
 __all__ = [
@@ -31,21 +31,23 @@ _CHUNK = 250
 
 @dataclass(frozen=True, eq=False)
 class EigenvalueUncertainty:
-    """Eigenvalues by mode with what they may be.
+    """Eigenvalues by mode, of f freedoms, with what they may be.
 
     Attributes
     ----------
     speeds : array, shape (n,)
         In m/s.
-    eigenvalues : complex array, shape (n, 4)
+    eigenvalues : complex array, shape (n, 2 f)
         Of the design as given, in 1/s; columns as in :class:`singletrack.linear.Modes`.
-    real_deviation, imaginary_deviation : array, shape (n, 4)
+    real_deviation, imaginary_deviation : array, shape (n, 2 f)
         Standard deviations in 1/s.
-    real_interval, imaginary_interval : array, shape (2, n, 4)
+    real_interval, imaginary_interval : array, shape (2, n, 2 f)
         Bounds of the central 95 %, in 1/s.
-    linear : bool array, shape (n, 4)
+    linear : bool array, shape (n, 2 f)
         Where linear propagation holds; elsewhere the numbers come from a sample (or are not to be trusted, if none
         was drawn).
+    names : tuple of str
+        Of the modes, one for each column.
     """
 
     speeds: np.ndarray
@@ -55,6 +57,7 @@ class EigenvalueUncertainty:
     real_interval: np.ndarray
     imaginary_interval: np.ndarray
     linear: np.ndarray
+    names: tuple[str, ...] = ("weave", "weave", "capsize", "castering")
 
 
 @dataclass(frozen=True, eq=False)
@@ -75,23 +78,40 @@ class CriticalSpeedUncertainty:
 
 
 def chunks(model: LinearModel) -> list[LinearModel]:
-    """Return a batch in pieces that keep temporary arrays small."""
+    """Return a batch in pieces that keep temporary arrays small.
+
+    Parameters
+    ----------
+    model : LinearModel
+        Of a batch (n,).
+    """
     whole = whole_batch(model, model.shape[0])
-    M, C1, K0, K2, gravity = whole.M, whole.C1, whole.K0, whole.K2, whole.gravity
-    pieces = [slice(i, i + _CHUNK) for i in range(0, model.shape[0], _CHUNK)]
-    return [LinearModel(M[p], C1[p], K0[p], K2[p], gravity[p]) for p in pieces]
+    return [whole[i : i + _CHUNK] for i in range(0, model.shape[0], _CHUNK)]
 
 
 def whole_batch(model: LinearModel, count: int) -> LinearModel:
-    """Return a batch of n designs in full: a matrix that depends on no uncertain parameter comes without the batch."""
-    matrices = (np.broadcast_to(matrix, (count, 2, 2)) for matrix in (model.M, model.C1, model.K0, model.K2))
-    M, C1, K0, K2 = matrices
-    gravity = np.broadcast_to(np.asarray(model.gravity, dtype=float), (count,))
-    return LinearModel(M, C1, K0, K2, gravity, faults=model.faults)
+    """Return a batch of n designs in full: a matrix that depends on no uncertain parameter comes without the batch.
+
+    Parameters
+    ----------
+    model : LinearModel
+        Matrices of shape (m, m) or (n, m, m).
+    count : int
+        The number n.
+    """
+    return model.broadcast_to((count,))
 
 
 def covariance_root(covariance: np.ndarray) -> np.ndarray:
-    """Return R with R R' = covariance, its columns along principal directions of the scaled parameters."""
+    """Return R with R R' = covariance, its columns along principal directions of the scaled parameters.
+
+    Shape (k, k).
+
+    Parameters
+    ----------
+    covariance : array, shape (k, k)
+        Symmetric, without negative eigenvalues.
+    """
     scale = np.sqrt(np.diag(covariance))
     safe = np.where(scale > 0, scale, 1.0)
     values, vectors = np.linalg.eigh(covariance / np.outer(safe, safe))
@@ -102,7 +122,15 @@ def covariance_root(covariance: np.ndarray) -> np.ndarray:
 def parameter_covariance(
     bicycle: Bicycle, rider: Rider | None, covariance: tuple[Sequence[str], Array] | None
 ) -> tuple[tuple[str, ...], np.ndarray]:
-    """Return the uncertain parameters and their covariance: as given, else independent standard deviations."""
+    """Return the uncertain parameters and their covariance: as given, else independent standard deviations.
+
+    Parameters
+    ----------
+    bicycle, rider : Bicycle, Rider or None
+        Whose standard deviations are taken where no covariance is given.
+    covariance : pair, optional
+        Names of k parameters, and their covariance, shape (k, k), SI.
+    """
     deviations: dict[str, float] = {}
     for record in (bicycle, rider):
         if record is not None:

@@ -94,13 +94,15 @@ class LinearUncertainty:
         apart = gradient[:, :, None] - gradient[:, None, :]
         spread = np.hypot(self._deviation(apart.real), self._deviation(apart.imag))
         gap = np.abs(roots[:, :, None] - roots[:, None, :])
-        gap[:, range(4), range(4)] = np.inf
+        gap[:, range(roots.shape[1]), range(roots.shape[1])] = np.inf
         with np.errstate(invalid="ignore"):
             linear = (gap > CLEARANCE * spread).all(axis=-1) & self._nearly_straight(
                 modes.speeds, roots, real, imaginary
             )
         intervals = [np.stack([x - _Z95 * s, x + _Z95 * s]) for x, s in ((roots.real, real), (roots.imag, imaginary))]
-        return EigenvalueUncertainty(modes.speeds, roots, real, imaginary, intervals[0], intervals[1], linear)
+        return EigenvalueUncertainty(
+            modes.speeds, roots, real, imaginary, intervals[0], intervals[1], linear, modes.names
+        )
 
     def _nearly_straight(
         self, speeds: np.ndarray, roots: np.ndarray, real: np.ndarray, imaginary: np.ndarray
@@ -214,4 +216,5 @@ def eigenvalue_uncertainty(
         merged(straight.real_interval, bent.real_interval),
         merged(straight.imaginary_interval, bent.imaginary_interval),
         straight.linear,
+        straight.names,
     )

@@ -10,13 +10,13 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from singletrack.arrays.namespace import Array, is_concrete
 from singletrack.errors import SingletrackError
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
-
-    import numpy as np
 
 __all__ = ["Fault", "refuse_single", "valid_mask"]
 
@@ -58,23 +58,17 @@ class Fault:
 
     def __getitem__(self, index: Any) -> Fault:
         """Return the fault of some designs of the batch."""
-        import numpy as np
-
         shape = np.shape(self.bad)
         some = {name: np.broadcast_to(np.asarray(value), shape)[index] for name, value in self.values.items()}
         return replace(self, bad=np.asarray(self.bad)[index], values=some)
 
     def broadcast_to(self, shape: tuple[int, ...]) -> Fault:
         """Return the fault with a mask and values of the full shape."""
-        import numpy as np
-
         full = {name: np.broadcast_to(np.asarray(value), shape) for name, value in self.values.items()}
         return replace(self, bad=np.broadcast_to(np.asarray(self.bad), shape), values=full)
 
     def padded(self, before: int, after: int) -> Fault:
         """Return the fault of a batch (k,) as that of a longer one: so many sound designs before and after."""
-        import numpy as np
-
         full = {name: np.pad(np.asarray(value), (before, after)) for name, value in self.values.items()}
         return replace(self, bad=np.pad(np.asarray(self.bad), (before, after)), values=full)
 
@@ -99,8 +93,6 @@ class Fault:
         )
 
     def _values_at(self, index: tuple[int, ...]) -> dict[str, Any]:
-        import numpy as np  # lazy: records can be made without NumPy
-
         shape = np.shape(self.bad)
         return {name: np.broadcast_to(np.asarray(value), shape)[index] for name, value in self.values.items()}
 
@@ -129,8 +121,6 @@ def refuse_single(faults: Iterable[Fault], where: str = "") -> tuple[Fault, ...]
     SingletrackError
         Of the class named by the first fault, with all reasons, if the masks have no dimensions.
     """
-    import numpy as np
-
     hit = [fault for fault in faults if is_concrete(fault.bad) and np.any(np.asarray(fault.bad))]
     single = [fault for fault in hit if np.ndim(fault.bad) == 0]
     if single:
@@ -140,8 +130,6 @@ def refuse_single(faults: Iterable[Fault], where: str = "") -> tuple[Fault, ...]
 
 def valid_mask(faults: Iterable[Fault], shape: tuple[int, ...] = ()) -> np.ndarray:
     """Return True for the designs that no fault hits, shape broadcast from ``shape`` and the masks."""
-    import numpy as np
-
     good = np.ones(shape, dtype=bool)
     for fault in faults:
         good = good & ~np.asarray(fault.bad)

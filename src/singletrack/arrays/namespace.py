@@ -1,13 +1,15 @@
 """The array API standard under the kernels: the same code on NumPy (default) and on JAX.
 
 ``Array`` stands for a NumPy or JAX array, a NumPy scalar or a Python number; the two libraries share no type.
+From 2.1 on NumPy's own namespace is that of the standard, as far as the kernels use it.
 """
 
 from __future__ import annotations
 
-import functools
 import sys
 from typing import Any, TypeAlias
+
+import numpy as np
 
 from singletrack.errors import InputError
 
@@ -23,20 +25,13 @@ __all__ = [
 Array: TypeAlias = Any
 
 
-@functools.cache
-def _numpy() -> Any:
-    import numpy as np  # lazy: `import singletrack` stays light
-
-    return np  # from 2.1 on its own namespace is that of the standard, as far as the kernels use it
-
-
 def namespace(*values: Array) -> Any:
     """Return the array namespace of the values: JAX if any is a JAX array, else NumPy.
 
     >>> namespace(1.0, 2.0).__name__
     'numpy'
     """
-    return sys.modules["jax.numpy"] if is_jax(*values) else _numpy()
+    return sys.modules["jax.numpy"] if is_jax(*values) else np
 
 
 def is_jax(*values: Array) -> bool:
@@ -47,6 +42,11 @@ def is_jax(*values: Array) -> bool:
 
 def require_double(value: Array) -> None:
     """Raise InputError if a result is a JAX array of single precision: too coarse for stability, and easily overlooked.
+
+    Parameters
+    ----------
+    value : array, shape (...)
+        The result.
 
     Raises
     ------
@@ -61,12 +61,18 @@ def require_double(value: Array) -> None:
 
 
 def is_concrete(value: Array) -> bool:
-    """Tell whether a value can be looked at now (a JAX tracer cannot)."""
+    """Tell whether a value can be looked at now (a JAX tracer cannot): a number, or an array (...)."""
     return not any(cls.__name__ == "Tracer" for cls in type(value).__mro__)
 
 
 def as_arrays(*values: Array) -> tuple[Any, tuple[Array, ...]]:
-    """Return the namespace of the values and the values as arrays of floating-point (or complex) numbers."""
+    """Return the namespace of the values, and the values as arrays of floating-point (or complex) numbers.
+
+    Parameters
+    ----------
+    values : array_like, shape (...)
+        Each of a shape of its own, which it keeps.
+    """
     xp = namespace(*values)
     arrays = (xp.asarray(value) for value in values)
     return xp, tuple(array if array.dtype.kind in "fc" else xp.astype(array, xp.float64) for array in arrays)

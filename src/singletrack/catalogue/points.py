@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from singletrack.catalogue.geometry import Geometry
 
 __all__ = ["points_of"]
@@ -27,26 +29,22 @@ def points_of(geometry: Geometry) -> dict[str, np.ndarray]:
     sin, cos, slope = np.sin(tilt), np.cos(tilt), np.tan(tilt)
     angle, bracket, height = v["seat_tube_angle"], v["bracket x"], v["bottom_bracket_height"]
 
-    def point(x: np.ndarray, up: np.ndarray, y: np.ndarray | float = 0.0) -> np.ndarray:
-        return np.stack(np.broadcast_arrays(x, y, -up), -1)
-
     def on_axis(up: np.ndarray, y: float = 0.0) -> np.ndarray:
-        return point(axis - up * slope, up, y)
+        return _point(axis - up * slope, up, y)
 
     def on_seat_tube(length: np.ndarray) -> np.ndarray:
-        return point(bracket - length * np.cos(angle), height + length * np.sin(angle))
+        return _point(bracket - length * np.cos(angle), height + length * np.sin(angle))
 
     tube, post = v["seat_tube_length"], v["seat_post_length"]
     crown = front - v["fork offset"] * sin + v["crown along"] * cos
-    bar, grip_x, grip = v["bar width"] / 2, v["grip x"], v["grip height"]
     # A rear tyre's top and a mudguard's leave some 15 mm of room.
     return {
-        "rear contact": point(0.0 * rear, 0.0 * rear),
-        "rear hub": point(0.0 * rear, rear),
-        "rear drop-out": point(0.0 * rear, rear, v["rear_hub_width"] / 2),
-        "rear tyre top": point(0.0 * rear, 2 * rear + 0.03),
-        "bottom bracket": point(bracket, height),
-        "bottom bracket sides": point(bracket - 0.03, height, 0.03),
+        "rear contact": _point(0.0 * rear, 0.0 * rear),
+        "rear hub": _point(0.0 * rear, rear),
+        "rear drop-out": _point(0.0 * rear, rear, v["rear_hub_width"] / 2),
+        "rear tyre top": _point(0.0 * rear, 2 * rear + 0.03),
+        "bottom bracket": _point(bracket, height),
+        "bottom bracket sides": _point(bracket - 0.03, height, 0.03),
         "seat tube top": on_seat_tube(tube),
         "seat stay top": on_seat_tube(tube - 0.02) + np.array([0.0, 0.015, 0.0]),
         "seat tube middle": on_seat_tube(0.55 * tube),
@@ -57,17 +55,30 @@ def points_of(geometry: Geometry) -> dict[str, np.ndarray]:
         "head tube bottom": on_axis(crown + 0.02),
         "crown": on_axis(crown),
         "crown sides": on_axis(crown, 0.045),
-        "front hub": point(base, front),
-        "front drop-out": point(base, front, v["front_hub_width"] / 2),
+        "front hub": _point(base, front),
+        "front drop-out": _point(base, front, v["front_hub_width"] / 2),
         "front tyre top": on_axis(crown) + np.array([0.05, 0.0, 0.0]),
         "steerer top": on_axis(v["steerer"]),
         "quill end": on_axis(v["steerer"] - 0.13 * cos),
-        "bar shoulder": point(v["clamp x"] + 0.01, v["clamp height"], bar - 0.03),
-        "bar arm end": point(grip_x - 0.06, grip, bar - 0.01),
-        "bar arm": point(grip_x, grip, bar - 0.02),
-        "bar arm lever": point(grip_x + 0.09, grip, bar - 0.06),
-        "clamp": point(v["clamp x"], v["clamp height"]),
-        "grip": point(grip_x, grip, bar - 0.06),
-        "lever": point(0.75 * grip_x + 0.25 * v["clamp x"] + 0.03, 0.75 * grip + 0.25 * v["clamp height"], bar - 0.12),
-        "bar end": point(grip_x, grip, bar),
+        **_of_handlebar(v),
+    }
+
+
+def _point(x: np.ndarray, up: np.ndarray, y: np.ndarray | float = 0.0) -> np.ndarray:
+    return np.stack(np.broadcast_arrays(x, y, -up), -1)
+
+
+def _of_handlebar(v: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
+    """Return the points of straight, city and drop bars."""
+    bar, grip_x, grip = v["bar width"] / 2, v["grip x"], v["grip height"]
+    clamp_x, clamp = v["clamp x"], v["clamp height"]
+    return {
+        "clamp": _point(clamp_x, clamp),
+        "bar shoulder": _point(clamp_x + 0.01, clamp, bar - 0.03),
+        "bar arm end": _point(grip_x - 0.06, grip, bar - 0.01),
+        "bar arm": _point(grip_x, grip, bar - 0.02),
+        "bar arm lever": _point(grip_x + 0.09, grip, bar - 0.06),
+        "grip": _point(grip_x, grip, bar - 0.06),
+        "lever": _point(0.75 * grip_x + 0.25 * clamp_x + 0.03, 0.75 * grip + 0.25 * clamp, bar - 0.12),
+        "bar end": _point(grip_x, grip, bar),
     }

@@ -9,16 +9,17 @@ import numpy as np
 
 from singletrack.arrays import Array, as_arrays, is_concrete, refuse_single, require_double
 from singletrack.closed_form.flexible import flexible_matrices, hinge_laws
+from singletrack.closed_form.round_tyres import on_round_tyres
 from singletrack.closed_form.slaved import slaved_matrices
 from singletrack.closed_form.whipple import whipple_matrices
 from singletrack.model import COORDINATES, INPUTS, LinearModel
 from singletrack.model.definite import indefinite
 from singletrack.parameters.flexible import soft_hinges
-from singletrack.posture import STEER, Options, input_name, seat, slaved_bodies
+from singletrack.posture import STEER, Options, input_name, seat, slaved_bodies, slaved_mass
 
 if TYPE_CHECKING:
     from singletrack.parameters import Bicycle, Rider
-    from singletrack.posture import SlavedBodies
+    from singletrack.posture import Posture
 
 __all__ = ["coefficients"]
 
@@ -71,8 +72,9 @@ def coefficients(bicycle: Bicycle, rider: Rider | None = None, options: Options 
         options.require_rider()
         laws = _steer_laws(options, 1)
         model = LinearModel(*bare, bicycle.gravity, faults=bicycle.standing_faults, C0=laws[0], S0=laws[1])
-        return _checked(_softened(model, bicycle, None), bicycle.name)
-    bodies = slaved_bodies(seat(bicycle, rider, options), bicycle)
+        return _checked(on_round_tyres(_softened(model, bicycle, None), bicycle, None), bicycle.name)
+    posture = seat(bicycle, rider, options)
+    bodies = slaved_mass(posture, bicycle)
     added = slaved_matrices(bodies, bicycle)
     faults = bicycle.standing_faults + rider.standing_faults + bodies.faults
     more = len(bodies.freedoms)
@@ -94,16 +96,17 @@ def coefficients(bicycle: Bicycle, rider: Rider | None = None, options: Options 
         coordinates=(*COORDINATES, *bodies.freedoms),
         inputs=(*INPUTS, *map(input_name, bodies.freedoms)),
     )
-    return _checked(_softened(model, bicycle, bodies), bicycle.name)
+    return _checked(on_round_tyres(_softened(model, bicycle, posture), bicycle, posture), bicycle.name)
 
 
-def _softened(model: LinearModel, bicycle: Bicycle, bodies: SlavedBodies | None) -> LinearModel:
+def _softened(model: LinearModel, bicycle: Bicycle, posture: Posture | None) -> LinearModel:
     """Return a model with the freedoms of a soft frame and fork, where the bicycle has them."""
     hinges = soft_hinges(bicycle)
     if not hinges:
         return model
     # The twist of the frame is already there where it carries a handlebar that is held.
     soft = tuple(hinge.name for hinge in hinges if hinge.name not in model.coordinates)
+    bodies = None if posture is None else slaved_bodies(posture, bicycle)
     matrices = flexible_matrices(bicycle, bodies, model.coordinates[2:])
     coordinates = (*model.coordinates, *soft)
     laws = hinge_laws(bicycle, coordinates)

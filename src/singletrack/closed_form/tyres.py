@@ -17,7 +17,7 @@ import numpy as np
 
 from singletrack.arrays import Array
 from singletrack.closed_form.coefficients import coefficients
-from singletrack.closed_form.flexible import Moving, moving_bodies
+from singletrack.closed_form.hinged import Moving, moving_bodies
 from singletrack.errors import InputError
 
 if TYPE_CHECKING:
@@ -151,7 +151,13 @@ class TyreModel:
                 A[:, n : 2 * n + 2, :n] += contact[:, None] * by_q
 
     def eigenvalues(self, speeds: Array) -> Array:
-        """Return the eigenvalues (k, m), 1/s, sorted by real, then imaginary part."""
+        """Return the eigenvalues (k, m), 1/s, sorted by real, then imaginary part.
+
+        Parameters
+        ----------
+        speeds : array, shape (k,)
+            In m/s.
+        """
         return np.sort_complex(np.linalg.eigvals(self.state_matrix(speeds)))
 
 

@@ -1,4 +1,4 @@
-"""Forward speeds as people type them."""
+"""Forward speeds, and ranges of parameters, as people type them."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import numpy as np
 from singletrack.errors import InputError
 from singletrack.parameters.units import parse_quantity
 
-__all__ = ["parse_speeds"]
+__all__ = ["parse_range", "parse_speeds"]
 
 _MOST = 1_000_000
 _ALLOWED = (
@@ -52,6 +52,35 @@ def parse_speeds(text: str, name: str = "--speeds") -> np.ndarray:
     if not start < stop or not 2 <= int(count) <= _MOST:
         raise _refused(wrong, text)
     return np.linspace(start, stop, int(count))
+
+
+def parse_range(text: str, unit: str) -> np.ndarray:
+    """Return the numbers (n,) in SI that START:STOP:COUNT stands for.
+
+    Parameters
+    ----------
+    text : str
+        START and STOP may have a unit.
+    unit : str
+        The SI unit wanted, as pint writes it.
+
+    Raises
+    ------
+    InputError
+        If the text is nothing of the kind.
+
+    Examples
+    --------
+    >>> parse_range("40mm:80 mm:3", "m").tolist()
+    [0.04, 0.06, 0.08]
+    """
+    parts = text.split(":")
+    if len(parts) != 3 or not re.fullmatch(r"[0-9]{1,4}", parts[2].strip()) or int(parts[2]) < 2:
+        raise InputError(f"{text[:80]!r}: must be START:STOP:COUNT with a COUNT from 2 to 9999, e.g. 40mm:80mm:9")
+    start, stop = (parse_quantity(part.strip(), unit).value for part in parts[:2])
+    if not np.isfinite([start, stop]).all() or start == stop:
+        raise InputError(f"{text[:80]!r}: START and STOP must be finite and differ")
+    return np.linspace(start, stop, int(parts[2]))
 
 
 def _speed(cell: str, name: str, wrong: str, text: str) -> float:

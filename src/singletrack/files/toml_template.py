@@ -20,6 +20,7 @@ __all__ = ["template_of"]
 #: Optional parameters that most files do without; their lines are comments.
 _SELDOM = (
     *("elbow_drop_angle", "torso_thickness", "torso_width", "handlebar_width", "handlebar_drop"),
+    *("rear_tyre_radius", "front_tyre_radius"),
     *("frame_torsion_stiffness", "frame_torsion_damping", "frame_hinge_x", "frame_hinge_z", "frame_hinge_tilt"),
     *("fork_bending_stiffness", "fork_bending_damping", "fork_hinge_x", "fork_hinge_z", "fork_hinge_tilt"),
 )

@@ -26,8 +26,10 @@ __all__ = ["EDGES", "Branches", "find_branches", "in_order", "places"]
 EDGES = np.concatenate([[0.0], *(np.array([1.0, 1.5]) * 2.0**k for k in range(-6, 10))])
 #: Width of an interval, relative to its speed, that is not cut again: roots that meet by threes, or without splitting.
 _NARROWEST = 1e-9
+#: Intervals of a design that are cut at a time, at most.
+_MOST_OPEN = 200
 #: Two roots are taken together if they are nearer to each other than this part of their distance from any other.
-_TOGETHER = 0.5
+_TOGETHER = 0.25
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,20 +55,36 @@ class Branches:
     block: np.ndarray
 
     def rows(self, which: np.ndarray) -> Branches:
-        """Return some intervals."""
+        """Return some intervals.
+
+        Parameters
+        ----------
+        which : array, shape (r,)
+            Indices, or a mask of all intervals.
+        """
         return Branches(*(getattr(self, one.name)[which] for one in fields(self)))
 
 
 def find_branches(p: Pencil) -> Branches:
-    """Return the intervals of all designs, in any order."""
+    """Return the intervals of all designs, in any order.
+
+    Parameters
+    ----------
+    p : Pencil
+        Of m designs.
+    """
     edges = len(EDGES) - 1
     design = np.repeat(np.arange(len(p)), edges)
     low, high = np.tile(EDGES[:-1], len(p)), np.tile(EDGES[1:], len(p))
     done = []
     while len(design):
         some = _discs(p.rows(design), design, low, high)
-        apart = _apart(some) & (_changes(p.rows(design), some) <= 1)
-        keep = apart | (high - low <= _NARROWEST * (1 + high))
+        keep = _apart(some)
+        row = np.flatnonzero(keep)
+        keep[row] = _changes(p.rows(design[row]), some.rows(row)) <= 1
+        keep |= high - low <= _NARROWEST * (1 + high)
+        # Roots that coincide over a whole range are never told apart: a design with so many open intervals is done.
+        keep |= np.bincount(design[~keep], minlength=len(p))[design] > _MOST_OPEN
         done.append(some.rows(keep))
         design, low, high = (a[~keep] for a in (design, low, high))
         middle = (low + high) / 2
@@ -82,8 +100,9 @@ def _discs(p: Pencil, design: np.ndarray, low: np.ndarray, high: np.ndarray) -> 
     order, block = _places_of_blocks(partner)
     roots = np.take_along_axis(roots, order, axis=-1)
     basis = _basis(np.take_along_axis(vectors, order[:, None, :], axis=-1), block)
-    constant, linear, square = _in_basis(p, middle, basis)
     same = block[:, :, None] == block[:, None, :]
+    gap = np.where(same, np.inf, np.abs(roots[:, :, None] - roots[:, None, :])).min(axis=-1)
+    constant, linear, square = _in_basis(p, middle, basis, gap)
     h = half[:, None, None]
     size = np.abs(constant) + h * np.abs(linear) + h * h * np.abs(square)
     # A block's off-diagonal part: all of its rows together.
@@ -149,14 +168,18 @@ def _basis(vectors: np.ndarray, block: np.ndarray) -> np.ndarray:
     return np.where(second[:, None, :], apart / np.where(norm > 0, norm, 1.0), vectors)
 
 
-def _in_basis(p: Pencil, middle: np.ndarray, basis: np.ndarray) -> list[np.ndarray]:
-    """Return the state matrix about the middle, its terms of order 0, 1 and 2, in a basis and its inverse."""
+def _in_basis(p: Pencil, middle: np.ndarray, basis: np.ndarray, gap: np.ndarray) -> list[np.ndarray]:
+    """Return the state matrix about the middle, its terms of order 0, 1 and 2, in a basis.
+
+    Its columns are scaled so that entries and their mirror images are alike, relative to the gaps (r, N) about the
+    roots: a root far from all others may have a large disc.
+    """
     n = p.freedoms
-    singular = ~(np.linalg.cond(basis) < 1e12)
+    singular = np.linalg.slogdet(basis)[0] == 0
     basis = np.where(singular[:, None, None], np.eye(2 * n), basis)
     inverse = np.linalg.inv(basis)
-    # Columns of the basis as long as rows of the inverse: the bounds for rows are then as good as for columns.
-    scale = np.sqrt(np.linalg.norm(inverse, axis=-1) / np.linalg.norm(basis, axis=-2))
+    singular |= ~(np.linalg.norm(inverse, axis=(-2, -1)) * np.linalg.norm(basis, axis=(-2, -1)) < 1e12)
+    scale = np.sqrt(np.linalg.norm(inverse, axis=-1) / np.linalg.norm(basis, axis=-2) / np.where(gap > 0, gap, 1.0))
     basis, inverse = basis * scale[:, None, :], inverse / scale[:, :, None]
     linear, square = np.zeros_like(basis), np.zeros_like(basis)
     linear[:, n:, :n], linear[:, n:, n:] = -2 * middle[:, None, None] * p.K2, -p.C1
@@ -178,16 +201,50 @@ def _apart(b: Branches) -> np.ndarray:
 
 
 def _changes(p: Pencil, b: Branches) -> np.ndarray:
-    """Return how many blocks of two are real at one end of each interval (r,) and a pair at the other."""
-    ends = np.stack([b.low, b.high], axis=-1)
-    roots = np.sort_complex(np.linalg.eigvals(p.state(ends)))
-    one, other = (places(b, roots[:, k], ends[:, k]) for k in (0, 1))
-    changed: np.ndarray = ((one.imag == 0) != (other.imag == 0)).sum(axis=-1) // 2
-    return changed
+    """Return how often a block of two in each interval (r,) turns from real roots to a pair or back.
+
+    Beside both ends and the middle it is looked at where the square of the difference of its roots, which changes
+    nearly as a parabola, is extreme: there two real roots may be a pair for a short while.
+    """
+    half = (b.high - b.low) / 2
+    speeds = np.stack([b.low, b.low + half, b.high], axis=-1)
+    found = [_placed(p, b, speeds[:, k]) for k in range(3)]
+    first = np.roll(b.block, -1, axis=-1) == b.block  # the first of two
+    low, middle, high = (np.where(first, (roots - np.roll(roots, -1, axis=-1)) ** 2, 0.0).real for roots in found)
+    bend, slope = (low - 2 * middle + high) / 2, (high - low) / 2
+    with np.errstate(divide="ignore", invalid="ignore"):
+        extreme = -slope / (2 * bend)
+        value = middle + slope * extreme / 2
+    inside = first & (np.abs(extreme) < 1) & (np.sign(low) == np.sign(high))
+    # Of several blocks the one whose extreme is nearest to, or farthest beyond, a meeting.
+    nearest = np.argmin(np.where(inside, value * np.sign(low), np.inf), axis=-1)
+    row = np.flatnonzero(inside.any(axis=-1))
+    t = np.take_along_axis(extreme, nearest[:, None], axis=-1)[row, 0]
+    between = found[1].copy()
+    between[row] = _placed(p.rows(row), b.rows(row), b.low[row] + half[row] * (1 + t))
+    real = np.stack([found[0].imag == 0, between.imag == 0, found[1].imag == 0, found[2].imag == 0])
+    steps = (real[0] != real[2]).astype(int) + (real[2] != real[3]) + 2 * ((real[0] == real[3]) & (real[1] != real[0]))
+    changes: np.ndarray = np.where(first, steps, 0).sum(axis=-1)
+    return changes
+
+
+def _placed(p: Pencil, b: Branches, v: np.ndarray) -> np.ndarray:
+    """Return the roots (r, N) at speeds (r,) in their places."""
+    return places(b, np.sort_complex(np.linalg.eigvals(p.state(v[:, None])))[:, 0], v)
 
 
 def places(b: Branches, roots: np.ndarray, v: np.ndarray) -> np.ndarray:
-    """Return roots (r, N) at speeds (r,) in their places; a permutation, whatever the roots."""
+    """Return roots (r, N) at speeds (r,) in their places; a permutation, whatever the roots.
+
+    Parameters
+    ----------
+    b : Branches
+        The r intervals in which the speeds lie.
+    roots : array, shape (r, N)
+        In the pencil's units.
+    v : array, shape (r,)
+        In the pencil's units.
+    """
     t = (v - (b.low + b.high) / 2)[:, None]
     centre = b.centre[:, 0] + t * b.centre[:, 1] + t * t * b.centre[:, 2]
     outside = np.abs(roots[:, :, None] - centre[:, None, :]) - b.radius[:, None, :]

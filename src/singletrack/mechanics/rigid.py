@@ -6,6 +6,8 @@ from collections.abc import Sequence  # noqa: TC003  # part of the public signat
 from dataclasses import dataclass
 from typing import NamedTuple
 
+import numpy as np
+
 from singletrack.arrays import Array, dot, namespace, stack, vector
 
 __all__ = ["Body", "PlanarBody", "combine", "point_inertia", "principal_in_plane"]
@@ -121,7 +123,5 @@ def principal_in_plane(xx: Array, zz: Array, xz: Array) -> tuple[Array, Array, A
     >>> [float(value) for value in principal_in_plane(1.0, 1.0, -0.25)]
     [1.25, 0.75, 0.7853981633974483]
     """
-    import numpy as np
-
     mean, half = (xx + zz) / 2, np.hypot((xx - zz) / 2, xz)
     return mean + half, mean - half, np.arctan2(-2 * xz, xx - zz) / 2

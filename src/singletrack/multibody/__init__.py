@@ -5,41 +5,32 @@ from singletrack.multibody.bicycle.hands_free import free_turns, hands_free_fami
 from singletrack.multibody.bicycle.model import bicycle_model, ride
 from singletrack.multibody.bicycle.turning import circle, held_turn, held_turns
 from singletrack.multibody.engine.assembly import assemble, move
-from singletrack.multibody.engine.connections import (
+from singletrack.multibody.engine.closures import (
     Closure,
-    CoordinateForce,
-    Force,
     Ratio,
-    Sensor,
-    Spring,
-    Torque,
-    Wheel,
     close_direction,
     close_distance,
     close_joint,
     close_point,
 )
+from singletrack.multibody.engine.connections import CoordinateForce, Force, Sensor, Spring, Torque, Wheel
 from singletrack.multibody.engine.dynamics import Response, accelerations, loop_forces, wheel_forces
-from singletrack.multibody.engine.elements import (
-    GROUND,
-    Body,
-    Joint,
-    Motion,
+from singletrack.multibody.engine.elements import GROUND, Body, Joint, Motion, parameter, parameters
+from singletrack.multibody.engine.equilibrium import SteadyMotion, steady_motion
+from singletrack.multibody.engine.inputs import Constant, Function, Pulse, Sampled
+from singletrack.multibody.engine.joints import (
     cylindrical,
     fixed,
     free,
-    parameter,
-    parameters,
     planar,
     prismatic,
     revolute,
     spherical,
     universal,
 )
-from singletrack.multibody.engine.equilibrium import SteadyMotion, steady_motion
-from singletrack.multibody.engine.inputs import Constant, Function, Pulse, Sampled
+from singletrack.multibody.engine.kept import compile_equations
 from singletrack.multibody.engine.limits import Limit, Reach
-from singletrack.multibody.engine.linearise import Linearisation, linearise, speed_polynomials
+from singletrack.multibody.engine.linearise import Linearisation, linearise
 from singletrack.multibody.engine.model import Model, State, build
 from singletrack.multibody.engine.reactions import (
     Buckling,
@@ -50,6 +41,7 @@ from singletrack.multibody.engine.reactions import (
     joint_reactions,
 )
 from singletrack.multibody.engine.simulate import Event, simulate
+from singletrack.multibody.engine.straight import speed_polynomials
 from singletrack.multibody.engine.system import System
 
 __all__ = [
@@ -91,6 +83,7 @@ __all__ = [
     "close_joint",
     "close_point",
     "coefficients",
+    "compile_equations",
     "cylindrical",
     "driving_forces",
     "fixed",

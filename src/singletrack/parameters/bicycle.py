@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar
 
 from singletrack.arrays import Array
-from singletrack.parameters.flexible import hinge_faults
-from singletrack.parameters.inertia_rules import FLATNESS_TOLERANCE, inertia_faults, skate_faults
+from singletrack.parameters.hinge_rules import hinge_faults
+from singletrack.parameters.inertia_rules import FLATNESS_TOLERANCE, inertia_faults, skate_faults, tyre_faults
 from singletrack.parameters.record import Record, parameter
 
 if TYPE_CHECKING:
@@ -20,7 +20,8 @@ __all__ = ["FLATNESS_TOLERANCE", "FRAME_GEOMETRY", "Bicycle"]
 _GENERAL, _REAR_WHEEL, _REAR_FRAME = "bicycle", "rear wheel", "rear frame (body and frame assembly)"
 _FRONT_FRAME, _FRONT_WHEEL = "front frame (handlebar and fork assembly)", "front wheel"
 _GRIPS = "grips (where they are not level with the stem top, as wide as the shoulders)"
-_SOFT = "soft frame and fork (rigid where no stiffness is given)"
+_TYRES = "tyres (knife edges where no radius is given)"
+_SOFT = "soft frame and fork (rigid without stiffness; hinges by default at the fork's crown)"
 _GEOMETRY = "frame geometry (needed to seat a rider)"
 
 
@@ -92,6 +93,13 @@ class Bicycle(Record):
     seat_tube_length: Array = parameter("m", "lst", "crank axle to seat tube top", group=_GEOMETRY, optional=True)
     stem_length: Array = parameter("m", "ls", "along the steer axis", group=_GEOMETRY, optional=True)
 
+    rear_tyre_radius: Array = parameter(
+        "m", "cR", "of the rear tyre's cross-section; else a knife edge", "not negative", group=_TYRES, optional=True
+    )
+    front_tyre_radius: Array = parameter(
+        "m", "cF", "of the front tyre's cross-section; else a knife edge", "not negative", group=_TYRES, optional=True
+    )
+
     frame_torsion_stiffness: Array = parameter(
         "N*m/rad", "kft", "of the rear frame's twist about its hinge", "positive", group=_SOFT, optional=True
     )
@@ -134,6 +142,9 @@ class Bicycle(Record):
         for body in ("rear_wheel", "front_wheel"):
             xx, yy = (getattr(self, f"{body}_inertia_{axes}") for axes in ("xx", "yy"))
             yield from inertia_faults(body, ("xx", "yy"), xx, yy, xx, 0.0)
+            yield from tyre_faults(
+                body, getattr(self, f"{body}_radius"), getattr(self, body.replace("wheel", "tyre_radius"))
+            )
             yield from skate_faults(body, getattr(self, f"{body}_radius"), getattr(self, f"{body}_mass"), xx, yy)
 
 

@@ -9,6 +9,8 @@ from dataclasses import dataclass, field
 from math import inf, isfinite, pi
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from singletrack.arrays.faults import Fault
 from singletrack.errors import InputError
 
@@ -113,8 +115,6 @@ def faults_of_value(name: str, value: Array, description: Parameter) -> Iterator
     least, most = description.bounds
     if type(value) is float and isfinite(value) and test(value) and (least <= abs(value) <= most or value == 0):
         return
-    import numpy as np  # lazy: records of sound numbers can be made without NumPy
-
     array = np.asarray(value)
     real = array.real
     finite = np.isfinite(array)

@@ -5,6 +5,8 @@ from __future__ import annotations
 from math import degrees
 from typing import TYPE_CHECKING, Protocol
 
+import numpy as np
+
 from singletrack.arrays import Array, is_concrete
 from singletrack.markup import table, told
 
@@ -87,8 +89,6 @@ def _value(value: Array, unit: str) -> str:
         return "traced"
     if isinstance(value, float):
         return f"{told(factor * value)} {unit}".rstrip()
-    import numpy as np  # lazy: records of numbers alone can be made without NumPy
-
     numbers = np.real(np.asarray(value, dtype=complex)) * factor
     finite = numbers[np.isfinite(numbers)]
     if not finite.size:

@@ -6,19 +6,12 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from singletrack.arrays import Array, as_arrays, vector
-from singletrack.arrays.faults import Fault
-from singletrack.errors import InputError
+from singletrack.parameters.hinge_rules import FORK_BENDING, FRAME_TORSION, HINGE_PARAMETERS
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
     from singletrack.parameters.bicycle import Bicycle
 
-__all__ = ["FORK_BENDING", "FRAME_TORSION", "SoftHinge", "hinge_faults", "soft_hinges"]
-
-#: Names of the freedoms.
-FRAME_TORSION, FORK_BENDING = "frame torsion", "fork bending"
-_PARTS = {FRAME_TORSION: ("frame_torsion", "frame_hinge"), FORK_BENDING: ("fork_bending", "fork_hinge")}
+__all__ = ["FORK_BENDING", "FRAME_TORSION", "SoftHinge", "soft_hinges"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,41 +42,34 @@ def soft_hinges(bicycle: Bicycle) -> tuple[SoftHinge, ...]:
     Parameters
     ----------
     bicycle : Bicycle
-        A hinge without a tilt of its own is perpendicular to the steer axis.
+        A hinge without a place of its own goes through the steer axis at the fork's crown, a wheel's radius above the
+        hub; one without a tilt of its own is perpendicular to the steer axis.
 
     Examples
     --------
     >>> from singletrack import load_bicycle
-    >>> soft = load_bicycle("benchmark").replace(fork_bending_stiffness=2e3, fork_hinge_x=1.0, fork_hinge_z=-0.7)
-    >>> [hinge.name for hinge in soft_hinges(soft)], soft_hinges(load_bicycle("benchmark"))
-    (['fork bending'], ())
+    >>> (hinge,) = soft_hinges(load_bicycle("benchmark").replace(fork_bending_stiffness=2e3))
+    >>> hinge.name, hinge.point.round(3).tolist(), soft_hinges(load_bicycle("benchmark"))
+    ('fork bending', [0.881, 0.0, -0.673], ())
     """
     hinges = []
-    for name, (what, where) in _PARTS.items():
+    for name, (what, where) in HINGE_PARAMETERS.items():
         stiffness = getattr(bicycle, f"{what}_stiffness")
         if stiffness is None:
             continue
         tilt = getattr(bicycle, f"{where}_tilt")
         xp, (angle,) = as_arrays(bicycle.steer_axis_tilt if tilt is None else tilt)
-        point = vector(getattr(bicycle, f"{where}_x"), 0.0, getattr(bicycle, f"{where}_z"))
+        x, z = getattr(bicycle, f"{where}_x"), getattr(bicycle, f"{where}_z")
+        point = _crown(bicycle) if x is None else vector(x, 0.0, z)
         damping = getattr(bicycle, f"{what}_damping")
         axis = vector(xp.cos(angle), 0.0, -xp.sin(angle))
         hinges.append(SoftHinge(name, point, axis, stiffness, 0.0 if damping is None else damping))
     return tuple(hinges)
 
 
-def hinge_faults(bicycle: Bicycle) -> Iterator[Fault]:
-    """Yield a fault for each stiffness without a place for its hinge.
-
-    Parameters
-    ----------
-    bicycle : Bicycle
-    """
-    for what, where in _PARTS.values():
-        for axis in "xz":
-            if getattr(bicycle, f"{what}_stiffness") is not None and getattr(bicycle, f"{where}_{axis}") is None:
-                import numpy as np
-
-                text = f"{what}_stiffness needs {where}_x and {where}_z, a point of the hinge's axis"
-                yield Fault(np.ones((), dtype=bool), text, {}, InputError, (f"{where}_{axis}",), "a finite number in m")
-                break
+def _crown(bicycle: Bicycle) -> Array:
+    """Return the point of the steer axis that lies a wheel's radius above the point nearest to the front hub."""
+    xp, (tilt, trail, radius) = as_arrays(bicycle.steer_axis_tilt, bicycle.trail, bicycle.front_wheel_radius)
+    sin, cos = xp.sin(tilt), xp.cos(tilt)
+    above = trail * sin + radius * cos + radius
+    return vector(bicycle.wheel_base + trail - above * sin, 0.0, -above * cos)

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
     from singletrack.arrays import Array
 
-__all__ = ["FLATNESS_TOLERANCE", "inertia_faults", "skate_faults"]
+__all__ = ["FLATNESS_TOLERANCE", "inertia_faults", "skate_faults", "tyre_faults"]
 
 #: A flat body has Iyy = Ixx + Izz; bicycle frames are nearly flat, so that measured ones end up a little on either side
 #: (the paper's Browser: 2.4 % above). Beyond this relative excess no measurement explains it.
@@ -102,4 +102,35 @@ def skate_faults(wheel: str, radius: Array, mass: Array, xx: Array, yy: Array) -
         InputError,
         parts,
         "greater than zero",
+    )
+
+
+def tyre_faults(wheel: str, radius: Array, tyre: Array | None) -> Iterator[Fault]:
+    """Yield the fault of a tyre that is rounder than its wheel is large.
+
+    Parameters
+    ----------
+    wheel : str
+        ``rear_wheel`` or ``front_wheel``.
+    radius : array, shape (...)
+        Of the wheel, m.
+    tyre : array, shape (...), optional
+        Of the tyre's cross-section, m.
+    """
+    numbers = None if tyre is None else real_numbers(radius, tyre)
+    if numbers is None:
+        return
+    radius, tyre = numbers
+    larger = tyre > radius
+    if larger is False:
+        return
+    names = (f"{wheel.replace('wheel', 'tyre')}_radius", f"{wheel}_radius")
+    yield Fault(
+        larger,
+        f"{names[0]} = {{{names[0]}:.6g}} m is the radius of the tyre's cross-section, "
+        f"must not exceed {names[1]} = {{{names[1]}:.6g}} m",
+        dict(zip(names, (tyre, radius), strict=True)),
+        InputError,
+        names,
+        "at most the wheel's radius",
     )

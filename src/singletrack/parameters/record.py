@@ -8,6 +8,8 @@ from dataclasses import dataclass, field
 from math import inf
 from typing import TYPE_CHECKING, Any, ClassVar, Self
 
+import numpy as np
+
 from singletrack.arrays import Array, is_concrete
 from singletrack.arrays.faults import Fault, refuse_single
 from singletrack.errors import InputError, SingletrackError
@@ -83,7 +85,12 @@ class Record:
         return dict(_descriptions(cls))
 
     def values(self) -> dict[str, Array]:
-        """Return the parameters that are present, by name."""
+        """Return the parameters that are present, by name.
+
+        Each of a shape (...) of its own that broadcasts with the others, SI.
+
+        Each of a shape (...) of its own that broadcasts with the others, SI.
+        """
         found = {name: getattr(self, name) for name in _descriptions(type(self))}
         return {name: value for name, value in found.items() if value is not None}
 
@@ -109,8 +116,6 @@ class Record:
         """Return what is wrong with the values, with a mask over the batch each; sound numbers have no faults."""
         if self.is_single:
             return tuple(self._faults())
-        import numpy as np
-
         # Numbers near the largest double overflow on the way to being refused.
         with np.errstate(over="ignore", invalid="ignore"):
             return tuple(self._faults())
@@ -225,8 +230,6 @@ def _take_values(record: Record) -> None:
 
 
 def _common_shape(name: str, shapes: dict[str, tuple[int, ...]]) -> tuple[int, ...]:
-    import numpy as np
-
     try:
         return np.broadcast_shapes(*shapes.values())
     except ValueError:

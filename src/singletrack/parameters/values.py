@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
+
+import numpy as np
 
 from singletrack.arrays import Array, complex_allowed, is_concrete, is_jax
 from singletrack.errors import InputError
-
-if TYPE_CHECKING:
-    import numpy as np
 
 __all__ = ["FrozenDict", "as_parameter", "real_numbers"]
 
@@ -86,14 +85,10 @@ def real_numbers(*values: Array) -> tuple[Array, ...] | None:
         return values
     if not all(value is not None and is_concrete(value) for value in values):
         return None
-    import numpy as np
-
     return tuple(np.real(np.asarray(value)) for value in values)
 
 
 def _as_array(value: Any) -> float | np.ndarray:
-    import numpy as np  # lazy: records of numbers alone can be made without NumPy
-
     if isinstance(value, np.ma.MaskedArray):
         raise _refusal(value, "is a masked array; fill or leave out what is masked")
     if hasattr(value, "magnitude") or hasattr(value, "unit"):

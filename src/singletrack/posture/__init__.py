@@ -1,12 +1,13 @@
 """Which segments of the rider move with the steer, and how."""
 
 from singletrack.posture.arguments import require_bicycle, require_posture, require_records
-from singletrack.posture.bodies import SlavedBodies, slaved_bodies
+from singletrack.posture.bodies import SlavedMass, slaved_mass
 from singletrack.posture.mechanism import HANDLEBAR, Mechanism
 from singletrack.posture.options import ARMS, POSTURES, SHOULDERS, STEER, Options, input_name
 from singletrack.posture.residual import loop_residual
 from singletrack.posture.seated import Joint, Loop, Posture, seat, steer_axis
-from singletrack.posture.shipped import TORSO_LEAN, load_posture, mechanism_of, named_posture
+from singletrack.posture.segment_motion import SlavedBodies, slaved_bodies
+from singletrack.posture.shipped import TORSO_LEAN, is_posture, load_posture, mechanism_of, named_posture
 from singletrack.posture.steered import moved_skeleton, steered_skeleton
 
 __all__ = [
@@ -22,7 +23,9 @@ __all__ = [
     "Options",
     "Posture",
     "SlavedBodies",
+    "SlavedMass",
     "input_name",
+    "is_posture",
     "load_posture",
     "loop_residual",
     "mechanism_of",
@@ -33,6 +36,7 @@ __all__ = [
     "require_records",
     "seat",
     "slaved_bodies",
+    "slaved_mass",
     "steer_axis",
     "steered_skeleton",
 ]

@@ -1,77 +1,86 @@
-"""The rider's segments and how they move with the freedoms; what springs and dampers at the joints add."""
+"""The rider's mass as it moves with the steer and the free joints: sums over all segments, to second order.
+
+A joint's momentum (p, h) is that of all it carries for its unit rate, about the rear contact: p = M v + w x S and
+h = I w + S x v, with the mass M, first moment S and inertia I of the segments beyond it. Everything the equations need
+follows from it (docs/theory.md, with X as in :mod:`singletrack.posture.twists` and Y the same sum of v):
+
+    momenta along a freedom      sum of  p U_i,  h U_i
+    inertia of two freedoms      sum of  (X_i . h + Y_i . p) U_j + (X_j . h + Y_j . p) U_i
+    second derivatives of S      sum of  (X_i U_j + X_j U_i) x p + p U_ij
+"""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from singletrack.arrays import Array, as_arrays, is_concrete, stack
 from singletrack.arrays.faults import Fault, refuse_single
 from singletrack.errors import PostureError
-from singletrack.parameters.flexible import FRAME_TORSION, soft_hinges
-from singletrack.posture.mechanism import HANDLEBAR
+from singletrack.posture.laws import laws_of
 from singletrack.posture.motion import rider_motion
-from singletrack.posture.seated import Joint
-from singletrack.posture.twists import Motion, designs_last
+from singletrack.posture.segment_motion import carried_by_soft_frame
+from singletrack.posture.twists import Motion, cross3, designs_last, dot3, summed
 
 if TYPE_CHECKING:
+    from singletrack.body import Segment
     from singletrack.parameters import Bicycle
     from singletrack.posture.seated import Posture
 
-__all__ = ["SlavedBodies", "slaved_bodies"]
+__all__ = ["SlavedMass", "slaved_mass"]
 
-#: Motions of a segment per unit of a free joint that are less than this (m, rad) are none.
-_STILL = 1e-9
+#: A free joint whose inertia is less than this share of what its segments have about the rear contact moves no mass.
+_STILL = 1e-12
 
 
 @dataclass(frozen=True, eq=False)
-class SlavedBodies:
-    """Bodies that move relative to the rear frame with f freedoms d: the steer angle first, then free joints.
+class SlavedMass:
+    """Bodies that move relative to the rear frame with f freedoms: the steer angle first, then free joints.
 
-    n bodies on the axis before the last. A body's centre moves by sum J_i d_i + sum H_ij d_i d_j / 2, its first-order
-    rotation is sum w_i d_i. The p pairs of freedoms are (0, 0), (0, 1), ..., (1, 1), ...
+    Moments are about the rear contact. Of two freedoms there is one entry for each of the p pairs (0, 0), (0, 1), ...,
+    (1, 1), ...
 
     Attributes
     ----------
-    mass : array, shape (..., n)
-        In kg.
-    centre : array, shape (..., n, 3)
-        At rest, in m, in the bicycle's frame.
-    inertia : array, shape (..., n, 3, 3)
-        About the centre, in kg m^2.
-    rotation : array, shape (..., f, n, 3)
-        w, in rad per rad.
-    displacement : array, shape (..., f, n, 3)
-        J, in m per rad.
-    curvature : array, shape (..., p, n, 3)
-        H, in m per rad^2.
-    faults : tuple of Fault
-        Designs of a batch that cannot sit or steer.
+    moment_x, moment_z : array, shape (...)
+        Sums of m x and m z, in kg m.
+    inertia_xx, inertia_xz, inertia_zz : array, shape (...)
+        Entries of the inertia tensor, in kg m^2.
+    spin_x, spin_z, lateral : sequence of f arrays, shape (...)
+        Angular momentum about x and z, in kg m^2, and lateral momentum, in kg m, for a unit rate of each freedom.
+    inner : sequence of p arrays, shape (...)
+        Inertia of the motion relative to the frame, in kg m^2.
+    sinking : sequence of p arrays, shape (...)
+        Second derivatives of the sum of m z, in kg m.
     freedoms : tuple of str
         Names of the free joints.
     damping, stiffness : array, shape (..., f, f), or None
         Of dampers and springs at the rider's joints, in N m s and N m per rad; None without any.
-    moving : tuple of int, optional
-        Which bodies move at all; None: any may.
+    faults : tuple of Fault
+        Designs of a batch that cannot sit or steer.
     """
 
-    mass: Array
-    centre: Array
-    inertia: Array
-    rotation: Array
-    displacement: Array
-    curvature: Array
-    faults: tuple[Fault, ...] = ()
+    moment_x: Array
+    moment_z: Array
+    inertia_xx: Array
+    inertia_xz: Array
+    inertia_zz: Array
+    spin_x: Sequence[Array] = (0.0,)
+    spin_z: Sequence[Array] = (0.0,)
+    lateral: Sequence[Array] = (0.0,)
+    inner: Sequence[Array] = (0.0,)
+    sinking: Sequence[Array] = (0.0,)
     freedoms: tuple[str, ...] = ()
     damping: Array | None = None
     stiffness: Array | None = None
-    moving: tuple[int, ...] | None = None
+    faults: tuple[Fault, ...] = ()
 
 
-def slaved_bodies(posture: Posture, bicycle: Bicycle) -> SlavedBodies:
-    """Return the rider's segments and how they move with the steer and the free joints.
+def slaved_mass(posture: Posture, bicycle: Bicycle) -> SlavedMass:
+    """Return how the mass of a seated rider moves with the steer and the free joints.
 
     Parameters
     ----------
@@ -88,92 +97,108 @@ def slaved_bodies(posture: Posture, bicycle: Bicycle) -> SlavedBodies:
     >>> from singletrack import load_bicycle, load_rider
     >>> from singletrack.posture import seat
     >>> bicycle = load_bicycle("browser")
-    >>> slaved_bodies(seat(bicycle, load_rider("rider-a"), "upright"), bicycle).displacement.shape
-    (1, 10, 3)
+    >>> mass = slaved_mass(seat(bicycle, load_rider("rider-a"), "upright"), bicycle)
+    >>> len(mass.inner), bool(mass.inner[0] > 0), abs(float(mass.moment_x - 72 * 0.2) / 72) < 0.2  # steer alone
+    (1, True, True)
     """
     segments = list(posture.segments.values())
-    mass = stack([body.mass for body in segments], -1)
-    centre = stack([body.centre for body in segments], -2)
-    inertia = stack([body.inertia for body in segments], -3)
+    shape = _batch(posture)
+    xp, rows = _about_contact(segments, shape, _ALL if posture.joints else _IN_PLANE)
+    places = _ALL if posture.joints else _IN_PLANE
+    whole = {name: xp.sum(rows[places.index(row)], axis=0).reshape(shape) for row, name in _TOTALS.items()}
+    faults = posture.skeleton.faults + posture.faults
     if not posture.joints:
-        still = np.zeros((1, len(segments), 3))
-        return SlavedBodies(
-            mass, centre, inertia, still, still, still, posture.skeleton.faults + posture.faults, moving=()
-        )
-    posture = _carried_by_soft_frame(posture, bicycle)
-    motion = rider_motion(posture, bicycle)
-    xp, (points,) = designs_last([centre], motion.shape)
-    carries = posture.tree.carries
-    rotation, first = motion.first(carries, points)
-    second = motion.second(carries, points, rotation, first)
-    damping, stiffness = _laws(posture, motion)
-    turned, displaced, bent = (
-        xp.moveaxis(values.reshape(*values.shape[:3], *motion.shape), (0, 1, 2), (-1, -2, -3))
-        for values in (rotation, first, second)
-    )
-    return SlavedBodies(
-        mass,
-        centre,
-        inertia,
-        turned,
-        displaced,
-        bent,
-        posture.skeleton.faults + posture.faults + motion.faults + _massless(posture, turned, displaced),
-        posture.freedoms,
+        return SlavedMass(**whole, faults=faults)
+    posture = carried_by_soft_frame(posture, bicycle)
+    motion, tree = rider_motion(posture, bicycle, shape), posture.tree
+    moving = tree.moving
+    beyond = summed(tree.carries[moving].T, rows[:, moving])
+    momentum, spin = _momenta(motion, beyond)
+    rates, i, j = motion.rates, tree.first, tree.second
+
+    def along(values: Array, weights: Array) -> list[Array]:
+        return [xp.sum(values * weights[:, k], axis=0).reshape(shape) for k in range(weights.shape[1])]
+
+    shares = dot3(motion.carried_spin, spin[:, :, None]) + dot3(motion.carried_twist, momentum[:, :, None])
+    inner = [xp.sum(shares[:, a] * rates[:, b] + shares[:, b] * rates[:, a], axis=0) for a, b in zip(i, j, strict=True)]
+    turning = motion.turning
+    lifted = turning[0] * momentum[1][:, None] - turning[1] * momentum[0][:, None] + momentum[2][:, None] * motion.bends
+    inner = [value.reshape(shape) for value in inner]
+    damping, stiffness = laws_of(posture, motion)
+    return SlavedMass(
+        **whole,
+        spin_x=along(spin[0], rates),
+        spin_z=along(spin[2], rates),
+        lateral=along(momentum[1], rates),
+        inner=inner,
+        sinking=[value.reshape(shape) for value in xp.sum(lifted, axis=0)],
+        freedoms=posture.freedoms,
         damping=damping,
         stiffness=stiffness,
-        moving=tuple(np.flatnonzero(carries.any(axis=1)).tolist()),
+        faults=faults + motion.faults + _massless(posture, inner, whole["inertia_xx"] + whole["inertia_zz"]),
     )
 
 
-def _carried_by_soft_frame(posture: Posture, bicycle: Bicycle) -> Posture:
-    """Return a posture in which the twist of a soft frame is one more free joint, that which carries the handlebar."""
-    hinge = next((hinge for hinge in soft_hinges(bicycle) if hinge.name == FRAME_TORSION), None)
-    if hinge is None or all(loop.to != HANDLEBAR for loop in posture.loops):
-        return posture
-    return replace(posture, joints=(*posture.joints, Joint(hinge.name, "", hinge.point, hinge.axis, free=True)))
+def _batch(posture: Posture) -> tuple[int, ...]:
+    """Return the shape of the batch that skeleton, masses and inertias make together."""
+    shapes = {np.shape(body.mass) for body in posture.segments.values()}
+    shapes |= {np.shape(body.inertia)[:-2] for body in posture.segments.values()}
+    return np.broadcast_shapes(posture.skeleton.points.shape[:-2], *shapes)
 
 
-def _massless(posture: Posture, rotation: Array, displacement: Array) -> tuple[Fault, ...]:
-    """Return a fault for each free joint that neither moves nor turns a segment."""
-    if not posture.freedoms or not is_concrete(rotation):
+#: What mass there is: mass itself, first moments, inertia; and what of it is asked for of all segments together.
+_ALL = ("m", "x", "y", "z", "xx", "yy", "zz", "xy", "xz", "yz")
+_IN_PLANE = ("x", "z", "xx", "xz", "zz")
+_TOTALS = {"x": "moment_x", "z": "moment_z", "xx": "inertia_xx", "xz": "inertia_xz", "zz": "inertia_zz"}
+
+
+def _about_contact(segments: list[Segment], shape: tuple[int, ...], wanted: tuple[str, ...]) -> tuple[Any, Array]:
+    """Return the wanted of mass, first moments and inertia about the rear contact, (wanted, segments, N)."""
+    centre, inertia = stack([body.centre for body in segments], -2), stack([body.inertia for body in segments], -3)
+    xp, (at, *columns) = designs_last([centre, *(inertia[..., k] for k in range(3))], shape)
+    mass = stack([body.mass for body in segments], -1)
+    _, (mass,) = as_arrays(xp.broadcast_to(mass, (*shape, mass.shape[-1])))
+    mass = xp.moveaxis(mass, -1, 0).reshape(len(segments), -1)
+    at_xyz = dict(zip("xyz", at, strict=True))
+    inertia_of = {a + b: columns["xyz".index(b)]["xyz".index(a)] for a, b in ("xx", "yy", "zz", "xy", "xz", "yz")}
+    rows = []
+    for name in wanted:
+        if name == "m":
+            rows.append(mass)
+        elif len(name) == 1:
+            rows.append(mass * at_xyz[name])
+        elif name[0] == name[1]:
+            one, other = (at_xyz[axis] for axis in "xyz" if axis != name[0])
+            rows.append(inertia_of[name] + mass * (one * one + other * other))
+        else:
+            rows.append(inertia_of[name] - mass * at_xyz[name[0]] * at_xyz[name[1]])
+    return xp, stack(rows, -3)
+
+
+def _momenta(motion: Motion, beyond: Array) -> tuple[Array, Array]:
+    """Return p and h (3, n, N) of the joints, from what is beyond each, rows as in :func:`_about_contact`."""
+    spin, twist = motion.spin, motion.twist
+    mass, moment = beyond[0], beyond[1:4]
+    xx, yy, zz, xy, xz, yz = (beyond[k] for k in range(4, 10))
+    turned = stack(
+        [
+            xx * spin[0] + xy * spin[1] + xz * spin[2],
+            xy * spin[0] + yy * spin[1] + yz * spin[2],
+            xz * spin[0] + yz * spin[1] + zz * spin[2],
+        ],
+        -3,
+    )
+    return mass * twist + cross3(spin, moment), turned + cross3(moment, twist)
+
+
+def _massless(posture: Posture, inner: list[Array], scale: Array) -> tuple[Fault, ...]:
+    """Return a fault for each free joint that moves no mass."""
+    if not posture.freedoms or not is_concrete(inner[-1]):
         return ()
-    motions = np.concatenate([np.asarray(rotation), np.asarray(displacement)], axis=-1)
-    moves = np.asarray((abs(motions) > _STILL).any(axis=(-1, -2)))
     text = "posture {posture}: joint {joint} is free and moves no mass: hang a segment on it, or take free away"
+    tree = posture.tree
+    own = {int(a): np.real(inner[k]) for k, (a, b) in enumerate(zip(tree.first, tree.second, strict=True)) if a == b}
     return refuse_single(
-        Fault(~moves[..., i], text.format(posture=posture.name, joint=name), {}, PostureError)
+        Fault(own[i] <= _STILL * np.real(scale), text.format(posture=posture.name, joint=name), {}, PostureError)
         for i, name in enumerate(posture.freedoms, start=1)
     )
-
-
-def _laws(posture: Posture, motion: Motion) -> tuple[Array | None, Array | None]:
-    """Return what dampers and springs of the joints add to C0 and S0, (..., f, f) each; None without any.
-
-    The potential of a joint's spring is k s^2 / 2 - p s, with s = sum U_i d_i + sum U_ij d_i d_j / 2.
-    """
-    tree = posture.tree
-    found: list[Array | None] = []
-    count = 1 + len(posture.freedoms)
-    for law in ("damping", "stiffness"):
-        added = None
-        for k, joint in enumerate(posture.joints):
-            value = getattr(joint, law)
-            if not is_concrete(value) or np.any(np.asarray(value)):
-                rates = _by_design(motion, motion.rates[k])
-                term = as_arrays(value)[1][0][..., None, None] * rates[..., :, None] * rates[..., None, :]
-                added = term if added is None else added + term
-            if law == "stiffness" and not joint.free and np.any(np.asarray(joint.preload)):
-                bends = _by_design(motion, motion.bends[k])
-                square = np.zeros((count, count), dtype=int)
-                square[tree.first, tree.second] = square[tree.second, tree.first] = range(len(tree.first))
-                term = -as_arrays(joint.preload)[1][0][..., None, None] * bends[..., square]
-                added = term if added is None else added + term
-        found.append(added)
-    return found[0], found[1]
-
-
-def _by_design(motion: Motion, values: Array) -> Array:
-    """Return values (k, N) of one joint as (..., k)."""
-    xp, (values,) = as_arrays(values)
-    return xp.moveaxis(values.reshape(values.shape[0], *motion.shape), 0, -1)

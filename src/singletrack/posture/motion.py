@@ -6,12 +6,14 @@ matrix (:mod:`singletrack.posture.loops`); twists of links are explained in :mod
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from singletrack.arrays import Array, is_jax, stack
-from singletrack.posture.loops import Loops, inverse_of
+from singletrack.posture.inverses import solver_of
+from singletrack.posture.loops import Loops
 from singletrack.posture.seated import steer_axis
-from singletrack.posture.twists import Motion, cross3, designs_last, summed, symmetric
+from singletrack.posture.twists import Motion, cross3, designs_last, motion_of
 
 if TYPE_CHECKING:
     from singletrack.arrays import Fault
@@ -21,13 +23,15 @@ if TYPE_CHECKING:
 __all__ = ["joint_motion", "rider_motion"]
 
 
-def rider_motion(posture: Posture, bicycle: Bicycle) -> Motion:
+def rider_motion(posture: Posture, bicycle: Bicycle, shape: tuple[int, ...] | None = None) -> Motion:
     """Return how the rider's joints move with the steer and the free joints.
 
     Parameters
     ----------
     posture : Posture
     bicycle : Bicycle
+    shape : tuple of int, optional
+        Of a batch that is larger than that of the skeleton; by default the skeleton's.
 
     Raises
     ------
@@ -49,7 +53,8 @@ def rider_motion(posture: Posture, bicycle: Bicycle) -> Motion:
     >>> abs(motion.rates[:2, 0, 0]).round(3).tolist(), bool(abs(motion.bends[0, 0, 0]) > 0.01)
     ([0.0, 0.482], True)
     """
-    tree, shape = posture.tree, posture.skeleton.points.shape[:-2]
+    tree = posture.tree
+    shape = posture.skeleton.points.shape[:-2] if shape is None else shape
     foot, axis = steer_axis(bicycle)
     points = [loop.point for loop in posture.loops if loop.directions is None]
     pairs = [loop.directions for loop in posture.loops if loop.directions is not None]
@@ -68,8 +73,14 @@ def rider_motion(posture: Posture, bicycle: Bicycle) -> Motion:
     if not tree.turns.all():
         turns = tree.turns[:, None]
         spin, twist = spin * turns, twist * turns + axes * (1 - turns)
-    loops = Loops(tree, bar[:, 0], bar[:, 1], *_of_loops(arrays[3:], bool(points), bool(pairs)))
-    return _solve(xp, posture, loops, spin, twist, shape)
+    held = arrays[3] if points else None
+    columns = None
+    if held is not None:
+        ends = tree.points
+        parting = cross3(spin[:, ends.chain], held[:, :, None]) + twist[:, ends.chain]
+        columns = parting if ends.signs.all() and (ends.signs > 0).all() else parting * ends.signs[:, :, None]
+    near, far = arrays[-2:] if pairs else (None, None)
+    return _solve(xp, posture, Loops(tree, bar[:, 0], bar[:, 1], held, columns, near, far), (spin, twist), shape)
 
 
 def joint_motion(posture: Posture, bicycle: Bicycle) -> tuple[dict[str, Array], dict[str, Array], tuple[Fault, ...]]:
@@ -85,52 +96,32 @@ def joint_motion(posture: Posture, bicycle: Bicycle) -> tuple[dict[str, Array], 
     return dict(zip(names, first, strict=True)), dict(zip(names, second, strict=True)), motion.faults
 
 
-def _of_loops(arrays: list[Array], with_points: bool, with_pairs: bool) -> tuple[Array | None, Array, Array]:
-    points = arrays[0] if with_points else None
-    near, far = arrays[-2:] if with_pairs else (None, None)
-    return points, near, far
-
-
-def _solve(xp: Any, posture: Posture, loops: Loops, spin: Array, twist: Array, shape: tuple[int, ...]) -> Motion:
-    """Return the motion that keeps the loops closed, from the joints' twists (3, n, N)."""
-    tree = posture.tree
+def _solve(xp: Any, posture: Posture, loops: Loops, joints: tuple[Array, Array], shape: tuple[int, ...]) -> Motion:
+    """Return the motion that keeps the loops closed, from the joints' twists (3, n, N) each."""
+    tree, (spin, twist) = posture.tree, joints
     free, dependent = tree.free, tree.dependent
-    designs = spin.shape[-1]
-    inverse: Array | None = None
-    faults: tuple[Fault, ...] = ()
-    if len(dependent):
-        matrix = loops.matrix(xp, spin, twist)
-        inverse, faults = inverse_of(xp.moveaxis(matrix[:, dependent], -1, 0), posture, shape)
-        right = [loops.steering(xp), *(-matrix[:, i] for i in free)]
-    rates = xp.zeros((len(posture.joints), 1 + len(free), designs), dtype=spin.dtype)
-    own = xp.asarray([[float(k == i + 1) for k in range(1 + len(free))] for i in range(len(free))], dtype=spin.dtype)
-    rates = _fill(rates, free, own[:, :, None]) if len(free) else rates
-    if inverse is not None:
-        rates = _fill(rates, dependent, _apply(xp, inverse, stack(right, -2)))
-    own_spin, own_twist = spin[:, :, None] * rates, twist[:, :, None] * rates
-    below_spin, below_twist = summed(tree.above, own_spin), summed(tree.above, own_twist)
-    bend_spin = symmetric(tree, below_spin, own_spin)
-    bend_twist = symmetric(tree, below_spin, own_twist) + symmetric(tree, below_twist, own_spin)
-    bends = xp.zeros((len(posture.joints), len(tree.first), designs), dtype=spin.dtype)
-    if inverse is not None:
-        first = Motion(tree, shape, rates, bends, own_twist, own_spin, bend_twist, bend_spin)
-        bends = _fill(bends, dependent, -_apply(xp, inverse, loops.bending(xp, first)))
-        bend_spin = bend_spin + spin[:, :, None] * bends
-        bend_twist = bend_twist + twist[:, :, None] * bends
-    return Motion(tree, shape, rates, bends, own_twist, own_spin, bend_twist, bend_spin, faults)
+    own = xp.zeros((len(posture.joints), 1 + len(free), spin.shape[-1]), dtype=spin.dtype)
+    for k, joint in enumerate(free, start=1):
+        own = _fill(own, (joint, k), 1.0)
+    if not len(dependent):
+        return motion_of(tree, shape, spin, twist, own, ())
+    solve, faults = solver_of(xp, posture, loops, spin, shape)
+    right = [loops.steering(xp)]
+    if len(free):
+        matrix = loops.matrix(xp, spin, free)
+        right += [-matrix[:, k] for k in range(len(free))]
+    rates = _fill(own, dependent, solve(stack(right, -2)))
+    motion = motion_of(tree, shape, spin, twist, rates, faults)
+    return replace(motion, bends=_fill(motion.bends, dependent, -solve(loops.bending(xp, motion))))
 
 
-def _fill(whole: Array, index: Array, rows: Array) -> Array:
-    """Return an array with some of its rows (k, ..., N) replaced."""
-    if is_jax(whole, rows):
+def _fill(whole: Array, index: Any, values: Array) -> Array:
+    """Return an array with some of its entries replaced."""
+    if is_jax(whole, values):
         from jax import numpy as jnp
 
-        return jnp.asarray(whole).at[index].set(rows)
-    whole = whole.astype(rows.dtype) if rows.dtype != whole.dtype and rows.dtype.kind == "c" else whole
-    whole[index] = rows
+        return jnp.asarray(whole).at[index].set(values)
+    kind = getattr(values, "dtype", whole.dtype)
+    whole = whole.astype(kind) if kind.kind == "c" and whole.dtype.kind != "c" else whole
+    whole[index] = values
     return whole
-
-
-def _apply(xp: Any, inverse: Array, right: Array) -> Array:
-    """Return the joints' rates (n, f, N) of inverses (N, n, rows) times right sides (rows, f, N)."""
-    return xp.moveaxis(xp.matmul(inverse, xp.moveaxis(right, -1, 0)), 0, -1)

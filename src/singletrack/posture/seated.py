@@ -6,6 +6,7 @@ A description only, which both derivations of the equations read.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from math import pi
 from typing import TYPE_CHECKING
 
@@ -125,7 +126,7 @@ class Posture:
         """Names of the joints that are coordinates of the model beside lean and steer."""
         return tuple(joint.name for joint in self.joints if joint.free)
 
-    @property
+    @cached_property
     def tree(self) -> Tree:
         """What the equations need of the structure."""
         carried = self.carried_by or {}

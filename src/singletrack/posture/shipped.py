@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from singletrack.errors import InputError, unknown_name
+from singletrack.files.registry import format_of
 from singletrack.files.source import read_text
 from singletrack.library import shipped
 from singletrack.posture.mechanism import FRAME, Direction, JointPlan, LoopPlan, Mechanism, Place
@@ -19,7 +20,7 @@ if TYPE_CHECKING:
 
     from singletrack.arrays import Array
 
-__all__ = ["TORSO_LEAN", "load_posture", "mechanism_of", "named_posture"]
+__all__ = ["TORSO_LEAN", "is_posture", "load_posture", "mechanism_of", "named_posture"]
 
 #: The hinge along x at the hips of the journal version (2012), under all of the upper body.
 TORSO_LEAN = "torso lean"
@@ -37,6 +38,10 @@ _VARIANTS: dict[str, dict[tuple[str, str | None], str]] = {
 
 def load_posture(name_or_path: str | Path) -> Mechanism:
     """Load a mechanism: a shipped posture's name, or a file.
+
+    Parameters
+    ----------
+    name_or_path : str or path
 
     Raises
     ------
@@ -64,8 +69,34 @@ def load_posture(name_or_path: str | Path) -> Mechanism:
     return parse_mechanism(read_text(path), str(path))
 
 
+def is_posture(name_or_path: str | Path) -> bool:
+    """Tell whether a name is a shipped posture's, or a file is a mechanism by what it says.
+
+    Parameters
+    ----------
+    name_or_path : str or path
+
+    Examples
+    --------
+    >>> is_posture("upright"), is_posture("stratos")
+    (True, False)
+    """
+    name = str(name_or_path)
+    if name in POSTURES or name in shipped("posture"):
+        return True
+    try:
+        path = Path(name_or_path)
+        return path.is_file() and format_of(read_text(path), name).name == "posture"
+    except (InputError, OSError, ValueError):
+        return False
+
+
 def named_posture(found: str | Path | Mechanism) -> str | Mechanism:
     """Return a posture as options take it: a shipped name as it is, a file's mechanism, a mechanism as it is.
+
+    Parameters
+    ----------
+    found : str, path or Mechanism
 
     Raises
     ------
@@ -85,6 +116,10 @@ def named_posture(found: str | Path | Mechanism) -> str | Mechanism:
 
 def mechanism_of(options: Options) -> Mechanism:
     """Return the mechanism that options ask for.
+
+    Parameters
+    ----------
+    options : Options
 
     Raises
     ------
@@ -141,6 +176,12 @@ def _leaning(posture: str, shoulder: str | None, arms: str | None) -> Mechanism:
 def with_torso_lean(mechanism: Mechanism) -> Mechanism:
     """Return a mechanism with one more free hinge, along x at the hips, under all that is not a leg.
 
+    Parameters
+    ----------
+    mechanism : Mechanism
+
+    Examples
+    --------
     >>> with_torso_lean(load_posture("rigid")).segments["head"]
     'torso lean'
     """

@@ -101,8 +101,8 @@ def _shifts(posture: Posture, bicycle: Bicycle, links: list[str], angles: Array)
     none = np.zeros(len(place))
     carries = np.array([tree.within[place[link]] if link else none for link in links])
     xp, (at,) = designs_last([points], motion.shape)
-    spin, first = motion.first(carries, at)
-    second = motion.second(carries, at, spin, first)
+    _, first = motion.first(carries, at)
+    second = motion.second(carries, at)
 
     def by_design(values: Array) -> Array:
         shaped = values.reshape(3, len(links), values.shape[2], *motion.shape)

@@ -30,12 +30,24 @@ class LoopEnds:
         One where a joint moves the link of the loop's joint, and that of what it is bound to.
     bar : array, shape (loops,)
         One where it is bound to the handlebar.
+    chain : array of int, shape (loops, k)
+        The joints that part the two ends of each, filled up where there are fewer.
+    signs : array, shape (loops, k)
+        1 for those that move the near end, -1 for those that move the far one, 0 where filled up.
+    places : array, shape (loops, n, k)
+        Puts a chain's joints into their places among all joints, of those that are not filled up.
+    own : array of int, shape (loops, 3), or None
+        Where each loop has just three joints that are not free, all its own: their places in its chain.
     """
 
     index: tuple[int, ...]
     near: np.ndarray
     far: np.ndarray
     bar: np.ndarray
+    chain: np.ndarray
+    signs: np.ndarray
+    places: np.ndarray
+    own: np.ndarray | None
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,8 +56,10 @@ class Tree:
 
     Attributes
     ----------
-    within, above : array, shape (n, n)
-        One where joint j moves link i; ``above`` leaves out the link's own joint.
+    within : array, shape (n, n)
+        One where joint j moves link i.
+    halfway : array, shape (n, n)
+        The same with one half for a link's own joint.
     turns : array, shape (n,)
         One for a hinge, zero for a slider.
     free, dependent : array of int
@@ -54,18 +68,21 @@ class Tree:
         Loops that hold a point, loops that hold two directions perpendicular.
     carries : array, shape (segments, n)
         One where joint j moves a segment.
+    moving : array of int
+        The segments that any joint moves.
     first, second : array of int
         The pairs of freedoms (steer first), each once.
     """
 
     within: np.ndarray
-    above: np.ndarray
+    halfway: np.ndarray
     turns: np.ndarray
     free: np.ndarray
     dependent: np.ndarray
     points: LoopEnds
     angles: LoopEnds
     carries: np.ndarray
+    moving: np.ndarray
     first: np.ndarray
     second: np.ndarray
 
@@ -107,8 +124,9 @@ def make_tree(
         index = tuple(k for k, loop in enumerate(loops) if loop[3] == points)
         bar = np.array([float(loops[k][2] == "handlebar") for k in index])
         # What carries the handlebar, where the frame is soft: a joint of this name.
-        far = [FRAME_TORSION if loops[k][2] == "handlebar" else loops[k][2] for k in index]
-        return LoopEnds(index, rows([loops[k][1] for k in index]), rows(far), bar)
+        far_ends = [FRAME_TORSION if loops[k][2] == "handlebar" else loops[k][2] for k in index]
+        near, far = rows([loops[k][1] for k in index]), rows(far_ends)
+        return LoopEnds(index, near, far, bar, *_chains(near - far, [joint[3] for joint in joints]))
 
     points, angles = ends(points=True), ends(points=False)
     free = np.array([i for i in range(n) if joints[i][3]], dtype=int)
@@ -117,7 +135,26 @@ def make_tree(
     _check_counts(name, [joints[i][0] for i in dependent], touched[dependent], [(loop[0], loop[3]) for loop in loops])
     first, second = np.array(list(combinations_with_replacement(range(1 + len(free)), 2))).T
     turns = np.array([0.0 if joint[2] else 1.0 for joint in joints])
-    return Tree(within, within - np.eye(n), turns, free, dependent, points, angles, rows(segments), first, second)
+    carries = rows(segments)
+    moving = np.flatnonzero(carries.any(axis=1))
+    halfway = within - np.eye(n) / 2
+    return Tree(within, halfway, turns, free, dependent, points, angles, carries, moving, first, second)
+
+
+def _chains(signs: np.ndarray, free: list[bool]) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray | None]:
+    """Return chains, signs, places and own joints of loops (see :class:`LoopEnds`) from near less far, (loops, n)."""
+    lists = [np.flatnonzero(row).tolist() for row in signs]
+    length = max((len(joints) for joints in lists), default=0)
+    chain = np.array([joints + [0] * (length - len(joints)) for joints in lists], dtype=int).reshape(len(lists), length)
+    used = np.array([[k < len(joints) for k in range(length)] for joints in lists]).reshape(len(lists), length)
+    of_chain = np.where(used, np.take_along_axis(signs, chain, axis=1), 0.0) if length else np.zeros(chain.shape)
+    places = np.zeros((len(lists), signs.shape[1], length))
+    for row, joints in enumerate(lists):
+        places[row, joints, range(len(joints))] = 1.0
+    bound = [[k for k, joint in enumerate(joints) if not free[joint]] for joints in lists]
+    flat = [joints[k] for joints, ks in zip(lists, bound, strict=True) for k in ks]
+    private = bool(lists) and all(len(ks) == 3 for ks in bound) and flat == sorted(set(flat))
+    return chain, of_chain, places, np.array(bound) if private else None
 
 
 def _check_counts(name: str, dependent: list[str], touched: np.ndarray, loops: list[tuple[str, bool]]) -> None:

@@ -1,14 +1,14 @@
-"""How the rider's segments move with the steer angle and the free joints, to second order.
+"""How the rider's joints and what they carry move with the steer angle and the free joints, to second order.
 
-Each joint has a twist, the velocity field of what it carries for its unit rate: w x r + v at a point r, with
-(w, v) = (a, p x a) for a hinge about a through p and (0, a) for a slider. A link's twist is the sum of those of the
-joints below it. Along the freedoms d = (steer, free joints), with rates U_i of all joints, twists T_i = sum t_j U_ji
-are first derivatives. A joint is carried by its parent, so that the second derivatives are
+A joint's twist is the velocity field of what it carries for its unit rate, w x r + v at a point r: (w, v) = (a, p x a)
+for a hinge about a through p, (0, a) for a slider. Let U_b,i be the rate of joint b along freedom i (the steer first),
+U_b,ij its second derivative. A joint is carried by the joints below it, so that for a point with c_b = w_b x r + v_b
 
-    T_ij = sum over joints of  (T_i(parent) x t_j + T_j(parent) x t_i) / 2 + t U_ij
+    first derivatives    r_i  = sum over its joints of  c_b U_b,i
+    second derivatives   r_ij = sum of  X_b,i x c_b U_b,j + X_b,j x c_b U_b,i + c_b U_b,ij
+                         X_b,i = (sum over the joints a below b of  w_a U_a,i) + w_b U_b,i / 2
 
-with the product (w, v) x (s, m) = (w x s, w x m + v x s), and a point's second derivative is w_ij x r + v_ij +
-(w_i x r_j + w_j x r_i) / 2, where r_i is its first. Loops give U_i and U_ij from linear equations of the same matrix.
+and likewise for directions, with c_b = w_b x direction (docs/theory.md).
 
 Arrays run along (x y z, joint or body, freedom or pair of freedoms, designs): designs last, side by side in memory.
 """
@@ -22,79 +22,171 @@ from singletrack.arrays import Array, as_arrays, stack
 from singletrack.arrays.faults import Fault
 from singletrack.posture.tree import Tree
 
-__all__ = ["Motion", "cross3", "designs_last", "dot3", "summed", "symmetric"]
+__all__ = ["Motion", "cross3", "designs_last", "dot3", "motion_of", "summed"]
 
 
 @dataclass(frozen=True, eq=False)
 class Motion:
-    """First and second derivatives of a rider's joints and links, f freedoms (steer first), N designs.
+    """First and second derivatives of a rider's joints, n joints, f freedoms, p pairs of them, N designs.
 
     Attributes
     ----------
     tree : Tree
     shape : tuple of int
         Of the batch of N designs.
-    rates : array, shape (n, f, N)
-        U, of the joints.
-    bends : array, shape (n, pairs, N)
-        U_ij, of the joints, for the tree's pairs of freedoms.
-    twist, spin : array, shape (3, n, f, N)
-        The joints' own twists along each freedom, translation at the origin and rotation; sum them over the joints
-        below a body for that of the body.
-    bend_twist, bend_spin : array, shape (3, n, pairs, N)
-        Likewise of second order.
+    spin, twist : array, shape (3, n, N)
+        w and v of the joints.
+    rates, bends : array, shape (n, f, N), (n, p, N)
+        U_b,i and U_b,ij.
+    carried_spin, carried_twist : array, shape (3, n, f, N)
+        X, and the same sum of v.
+    turning : array, shape (3, n, p, N)
+        X_b,i U_b,j + X_b,j U_b,i.
     faults : tuple of Fault
         Designs whose loops cannot follow the steer.
     """
 
     tree: Tree
     shape: tuple[int, ...]
+    spin: Array
+    twist: Array
     rates: Array
     bends: Array
-    twist: Array
-    spin: Array
-    bend_twist: Array
-    bend_spin: Array
+    carried_spin: Array
+    carried_twist: Array
+    turning: Array
     faults: tuple[Fault, ...] = ()
 
-    def first(self, carries: Array, points: Array) -> tuple[Array, Array]:
-        """Return rotation and displacement (3, k, f, N) of points (3, k, N), moved by the joints of rows (k, n)."""
-        spin = summed(carries, self.spin)
-        return spin, cross3(spin, points[:, :, None]) + summed(carries, self.twist)
+    def columns(self, points: Array) -> Array:
+        """Return c (3, k, n, N) of points, for all joints whether they carry them or not.
 
-    def second(self, carries: Array, points: Array, spin: Array, first: Array) -> Array:
-        """Return the second derivatives (3, k, pairs, N) of points, given their first ones."""
-        turning = cross3(summed(carries, self.bend_spin), points[:, :, None]) + summed(carries, self.bend_twist)
-        return turning + symmetric(self.tree, spin, first)
+        Parameters
+        ----------
+        points : array, shape (3, k, N)
+        """
+        return cross3(self.spin[:, None], points[:, :, None]) + self.twist[:, None]
+
+    def first(self, carries: Array, points: Array) -> tuple[Array, Array]:
+        """Return rotations and displacements (3, k, f, N) of points.
+
+        Parameters
+        ----------
+        carries : array, shape (k, n)
+            One where a joint moves a point.
+        points : array, shape (3, k, N)
+        """
+        return self.spins(carries), along(self.columns(points) * carries[:, :, None], self.rates)
+
+    def second(self, carries: Array, points: Array) -> Array:
+        """Return the second derivatives (3, k, p, N) of points.
+
+        Parameters
+        ----------
+        carries : array, shape (k, n)
+            One where a joint moves a point.
+        points : array, shape (3, k, N)
+        """
+        columns = self.columns(points) * carries[:, :, None]
+        return turned(self.turning[:, None], columns) + along(columns, self.bends)
+
+    def spins(self, carries: Array) -> Array:
+        """Return the rotations (3, k, f, N) of bodies.
+
+        Parameters
+        ----------
+        carries : array, shape (k, n)
+            One where a joint moves a body.
+        """
+        return summed(carries, self.spin[:, :, None] * self.rates)
+
+
+def motion_of(
+    tree: Tree, shape: tuple[int, ...], spin: Array, twist: Array, rates: Array, faults: tuple[Fault, ...]
+) -> Motion:
+    """Return the motion of joints with given rates, still without second derivatives of their angles.
+
+    Parameters
+    ----------
+    tree : Tree
+    shape : tuple of int
+        Of the batch of N designs.
+    spin, twist : array, shape (3, n, N)
+    rates : array, shape (n, f, N)
+    faults : tuple of Fault
+    """
+    carried = summed(tree.halfway, spin[:, :, None] * rates), summed(tree.halfway, twist[:, :, None] * rates)
+    i, j = tree.first, tree.second
+    turning = carried[0][:, :, i] * rates[:, j] + carried[0][:, :, j] * rates[:, i]
+    return Motion(tree, shape, spin, twist, rates, 0.0 * rates[:, i], *carried, turning, faults)
 
 
 def cross3(a: Array, b: Array) -> Array:
-    """Return cross products of arrays (3, ...)."""
-    return stack(
-        [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]], -max(a.ndim, b.ndim)
-    )
+    """Return cross products, components first.
+
+    Parameters
+    ----------
+    a, b : array, shape (3, ...)
+    """
+    parts = [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+    return stack(parts, -max(a.ndim, b.ndim))
 
 
 def dot3(a: Array, b: Array) -> Array:
-    """Return inner products of arrays (3, ...)."""
+    """Return inner products, components first.
+
+    Parameters
+    ----------
+    a, b : array, shape (3, ...)
+    """
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 
 
 def summed(rows: Array, values: Array) -> Array:
-    """Return sums of values (3, n, f, N) over the joints of each row (k, n), shape (3, k, f, N)."""
+    """Return sums (m, k, ..., N) of values over the joints of each row.
+
+    Parameters
+    ----------
+    rows : array, shape (k, n)
+    values : array, shape (m, n, ..., N)
+    """
     xp, (values,) = as_arrays(values)
-    flat = xp.matmul(xp.asarray(rows, dtype=values.dtype), values.reshape(3, rows.shape[1], -1))
-    return flat.reshape(3, rows.shape[0], *values.shape[2:])
+    flat = xp.matmul(xp.asarray(rows, dtype=values.dtype), values.reshape(values.shape[0], rows.shape[1], -1))
+    return flat.reshape(values.shape[0], rows.shape[0], *values.shape[2:])
 
 
-def symmetric(tree: Tree, a: Array, b: Array) -> Array:
-    """Return (a_i x b_j + a_j x b_i) / 2 for the pairs of freedoms, of arrays (3, k, f, N)."""
-    i, j = tree.first, tree.second
-    return (cross3(a[:, :, i], b[:, :, j]) + cross3(a[:, :, j], b[:, :, i])) / 2
+def along(columns: Array, rates: Array) -> Array:
+    """Return sums over the joints of columns times rates, shape (3, k, f, N).
+
+    Parameters
+    ----------
+    columns : array, shape (3, k, n, N)
+    rates : array, shape (n, f, N)
+    """
+    xp, (columns, rates) = as_arrays(columns, rates)
+    return stack([xp.sum(columns * rates[:, i], axis=2) for i in range(rates.shape[1])], -2)
+
+
+def turned(turning: Array, columns: Array) -> Array:
+    """Return sums over the joints of turning x columns, shape (3, ..., p, N).
+
+    Parameters
+    ----------
+    turning : array, shape (3, ..., n, p, N)
+    columns : array, shape (3, ..., n, N)
+    """
+    xp, (turning, columns) = as_arrays(turning, columns)
+    return xp.sum(cross3(turning, columns[..., None, :]), axis=-3)
 
 
 def designs_last(arrays: list[Array], shape: tuple[int, ...]) -> tuple[Any, list[Array]]:
-    """Return the namespace and vectors (..., k, 3), broadcast to a batch's shape, as (3, k, N)."""
+    """Return the namespace and vectors, broadcast to a batch's shape, as (3, k, N).
+
+    Parameters
+    ----------
+    arrays : list of arrays, shape (..., k, 3)
+    shape : tuple of int
+        Of the batch of N designs.
+    """
     xp, same = as_arrays(*arrays)
     moved = []
     for array in same:

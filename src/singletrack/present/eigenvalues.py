@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from singletrack.present.labels import Curve, label_curves
-from singletrack.present.style import COLOURS, new_figure, style
+from singletrack.present.style import COLOURS, colour_of, new_figure, style
+from singletrack.present.words import METRES, SpeedUnit
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -16,7 +17,7 @@ if TYPE_CHECKING:
 
     from singletrack.linear import CriticalSpeeds, Modes
 
-__all__ = ["draw_eigenvalues", "eigenvalue_figure"]
+__all__ = ["broken", "draw_eigenvalues", "eigenvalue_figure"]
 
 # Of the words above the axes: how far up they begin and how far apart rows are, in points; how far aside, in pixels.
 _ABOVE, _ROW, _ASIDE = 3, 11, 60
@@ -42,24 +43,37 @@ def eigenvalue_figure(modes: Modes, critical: CriticalSpeeds, title: str, limit:
     return figure
 
 
-def draw_eigenvalues(axes: Axes, modes: Modes, critical: CriticalSpeeds, limit: float = 10.0) -> None:
-    """Draw the eigenvalues of a single design on axes of any size (arguments as for :func:`eigenvalue_figure`)."""
-    v = modes.speeds
+def draw_eigenvalues(
+    axes: Axes, modes: Modes, critical: CriticalSpeeds, limit: float = 10.0, unit: SpeedUnit = METRES
+) -> None:
+    """Draw the eigenvalues of a single design on axes of any size.
+
+    Parameters
+    ----------
+    axes : matplotlib Axes
+    modes, critical, limit
+        As for :func:`eigenvalue_figure`.
+    unit : SpeedUnit
+        Of the speed in the figure.
+    """
+    v = modes.speeds * unit.factor
+    ranges = [(low * unit.factor, high * unit.factor) for low, high in critical.stable_ranges]
     axes.set_xlim(float(v[0]), float(v[-1]))
     axes.set_ylim(-limit, limit)
-    axes.set_xlabel("forward speed v (m/s)")
+    axes.set_xlabel(f"forward speed v ({unit.name})")
     along = axes.set_ylabel("eigenvalues: Re λ solid, Im λ dashed (1/s)")
     if along.get_window_extent().height > axes.get_window_extent().height:
         axes.set_ylabel("eigenvalues (1/s):\nRe λ solid, Im λ dashed")
-    for low, high in critical.stable_ranges:
+    for low, high in ranges:
         axes.axvspan(low, min(high, float(v[-1])), color=COLOURS["stable"], lw=0, zorder=0)
     axes.axhline(0.0, color="black", lw=0.8, zorder=1)
-    marked = _mark_speeds(axes, critical)
-    curves = _mode_curves(modes)
+    marked = _mark_speeds(axes, critical, unit)
+    curves = _mode_curves(modes, v)
     for curve, dashed in curves:
         axes.plot(curve.x, curve.y, color=curve.colour, ls=(0, (4, 2)) if dashed else "-", zorder=3)
-    stable = [_stable_label(low, min(high, float(v[-1])), limit) for low, high in critical.stable_ranges]
-    wide = [label for label, (low, high) in zip(stable, critical.stable_ranges, strict=True) if high - low > 0.6]
+    shown = [(max(low, float(v[0])), min(high, float(v[-1]))) for low, high in ranges]
+    least = 0.06 * float(v[-1] - v[0])
+    wide = [_stable_label(low, high, limit) for low, high in shown if high - low > least]
     label_curves(axes, [*(curve for curve, _ in curves), Curve(v, 0.0 * v, "", "black"), *wide], marked)
 
 
@@ -69,18 +83,17 @@ def _stable_label(low: float, high: float, limit: float) -> Curve:
     return Curve(np.full(40, (low + high) / 2), heights, "stable", "#3B7A32", on_points=True)
 
 
-def _mark_speeds(axes: Axes, critical: CriticalSpeeds) -> list[float]:
+def _mark_speeds(axes: Axes, critical: CriticalSpeeds, unit: SpeedUnit) -> list[float]:
     """Mark the critical speeds in view with a line and a word above the axes; return them."""
     low, high = axes.get_xlim()
-    marks = sorted(
-        [(speed, "weave") for speed in critical.weave if low < speed < high]
-        + [(speed, "capsize") for speed in critical.capsize if low < speed < high]
-    )
+    names = [crossing.mode for crossing in critical.crossings]
+    marks = [(crossing.speed * unit.factor, crossing.mode) for crossing in critical.crossings]
+    marks = [mark for mark in marks if low < mark[0] < high]
     for speed, name in marks:
-        axes.axvline(speed, color=COLOURS[name], lw=0.9, ls=":", zorder=2)
+        axes.axvline(speed, color=colour_of(name, names), lw=0.9, ls=":", zorder=2)
     texts = [
         axes.annotate(
-            f"{name} speed {speed:.2f} m/s",
+            f"{name} speed {speed:.2f} {unit.name}",
             (speed, 1.0),
             xycoords=("data", "axes fraction"),
             xytext=(0, _ABOVE),
@@ -88,7 +101,7 @@ def _mark_speeds(axes: Axes, critical: CriticalSpeeds) -> list[float]:
             ha="center",
             va="bottom",
             fontsize=8,
-            color=COLOURS[name],
+            color=colour_of(name, names),
         )
         for speed, name in marks
     ]
@@ -127,8 +140,16 @@ def _keep_clear(axes: Axes, rows: int) -> None:
     above.spines["top"].set_visible(False)
 
 
-def _broken(roots: np.ndarray, column: int) -> np.ndarray:
-    """Return the real part of a mode, NaN where its name passes on from one root to another (see linear.modes)."""
+def broken(roots: np.ndarray, column: int) -> np.ndarray:
+    """Return the real part of a mode, NaN where its name passes on from one root to another (see linear.modes).
+
+    Parameters
+    ----------
+    roots : complex array, shape (k, 2 n)
+        At k speeds.
+    column : int
+        Of the mode.
+    """
     real = roots[:, column].real.copy()
     step = np.abs(np.diff(roots[:, column]))
     nearest = np.abs(roots[1:, column, None] - roots[:-1]).min(axis=1)
@@ -136,15 +157,15 @@ def _broken(roots: np.ndarray, column: int) -> np.ndarray:
     return real
 
 
-def _mode_curves(modes: Modes) -> list[tuple[Curve, bool]]:
+def _mode_curves(modes: Modes, v: np.ndarray) -> list[tuple[Curve, bool]]:
     """Return the curves of the modes, and whether they are dashed (imaginary parts, where not zero)."""
-    v, roots = modes.speeds, modes.eigenvalues
+    roots = modes.eigenvalues
     curves = []
     for column, name in enumerate(modes.names):
-        colour = COLOURS[name]
-        real = _broken(roots, column)
+        colour = colour_of(name, modes.names)
+        real = broken(roots, column)
         imaginary = np.where(roots[:, column].imag > 0, roots[:, column].imag, np.nan)
-        second_of_pair = column == 1
+        second_of_pair = column > 0 and modes.names[column - 1] == name
         curves.append((Curve(v, real, "" if second_of_pair else f"Re {name}", colour), False))
         if np.isfinite(imaginary).any():
             curves.append((Curve(v, imaginary, "" if second_of_pair else f"Im {name}", colour), True))

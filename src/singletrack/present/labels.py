@@ -87,7 +87,8 @@ def _candidates(own: np.ndarray, half: np.ndarray, per_point: float) -> np.ndarr
     """Return centres of label boxes beside points of the curve, above and below it."""
     some = own[:: max(1, len(own) // 90)]
     gap = half[1] + 4 * per_point
-    offsets = np.array([(0, gap), (0, -gap), (half[0] + 6 * per_point, gap / 2), (half[0] + 6 * per_point, -gap / 2)])
+    aside = half[0] + 6 * per_point
+    offsets = np.array([(0, gap), (0, -gap), *((side, up) for side in (aside, -aside) for up in (gap / 2, -gap / 2))])
     centres: np.ndarray = (some[:, None, :] + offsets).reshape(-1, 2)
     return centres
 

@@ -7,11 +7,11 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Sequence
 
     from matplotlib.figure import Figure
 
-__all__ = ["COLOURS", "figure_bytes", "new_figure", "style"]
+__all__ = ["COLOURS", "LINES", "colour_of", "figure_bytes", "new_figure", "style"]
 
 #: Colour of each mode and part, distinguishable with all common kinds of colour blindness (Okabe and Ito).
 COLOURS = {
@@ -25,6 +25,20 @@ COLOURS = {
     "moved": "#56B4E9",
 }
 
+#: Colour and dashes of designs side by side: told apart in colour, by the colour-blind, and in grey by their dashes.
+LINES: tuple[tuple[str, Any], ...] = (
+    ("#000000", "-"),
+    ("#D55E00", (0, (5, 1.5))),
+    ("#0072B2", (0, (5, 1.5, 1, 1.5))),
+    ("#009E73", (0, (1, 1))),
+    ("#CC79A7", (0, (8, 2))),
+    ("#E69F00", (0, (3, 1, 1, 1, 1, 1))),
+    ("#56B4E9", (0, (2, 2))),
+)
+
+#: Of modes beyond weave, capsize and castering, such as torso lean.
+_FURTHER = ("#CC79A7", "#E69F00", "#56B4E9", "#555555")
+
 _PARAMETERS: Any = {
     "font.size": 9.0,
     "axes.spines.top": False,
@@ -34,6 +48,7 @@ _PARAMETERS: Any = {
     "figure.dpi": 100,
     "savefig.dpi": 150,
     "svg.fonttype": "path",
+    "pdf.fonttype": 42,  # whole fonts in the file: text stays text
     "svg.hashsalt": "singletrack",  # identifiers in the file depend on its content only
     "path.simplify": True,
 }
@@ -66,6 +81,14 @@ def new_figure(width: float, height: float) -> Figure:
     return figure
 
 
+def colour_of(mode: str, names: Sequence[str] = ()) -> str:
+    """Return the colour of a mode; of modes with other names than weave, capsize and castering, by their order."""
+    if mode in COLOURS:
+        return COLOURS[mode]
+    others = [name for name in dict.fromkeys(names) if name not in COLOURS]
+    return _FURTHER[others.index(mode) % len(_FURTHER)] if mode in others else _FURTHER[0]
+
+
 _METADATA: Any = {
     "svg": {"Date": None, "Creator": "singletrack"},
     "png": {"Software": "singletrack"},
@@ -73,13 +96,22 @@ _METADATA: Any = {
 }
 
 
-def figure_bytes(figure: Figure, kind: str) -> bytes:
-    """Return a figure as the content of a file, ``kind`` "png", "svg" or "pdf": no date, the same bytes each time."""
+def figure_bytes(figure: Figure, kind: str, dots: float | None = None) -> bytes:
+    """Return a figure as the content of a file: no date, the same bytes each time.
+
+    Parameters
+    ----------
+    figure : Figure
+    kind : {"png", "svg", "pdf"}
+    dots : float, optional
+        Per inch, of a png.
+    """
     content = io.BytesIO()
     with style():
         engine = figure.get_layout_engine()
         if engine is not None:
             engine.execute(figure)
             figure.set_layout_engine(None)  # laid out once, the same for every kind of file
-        figure.savefig(content, format=kind, metadata=_METADATA[kind])
+        resolution: Any = {} if dots is None else {"dpi": dots}
+        figure.savefig(content, format=kind, metadata=_METADATA[kind], **resolution)
     return content.getvalue()

@@ -42,6 +42,15 @@ _WORDS = {
 def write_csv(header: Iterable[str], rows: Iterable[Iterable[Any]]) -> str:
     r"""Return CSV text; numbers in full double precision.
 
+    Parameters
+    ----------
+    header : iterable of str
+        Names of the columns.
+    rows : iterable of iterables
+        Values of each line, numbers or text.
+
+    Examples
+    --------
     >>> write_csv(["speed", "root"], [[0.1, -1.0]])
     'speed,root\n0.1,-1.0\n'
     """
@@ -91,6 +100,13 @@ def _table(title: str) -> Table:
 def format_root(first: complex, second: complex | None = None) -> str:
     """Return one root, or two (a pair, or two real ones), for reading.
 
+    Parameters
+    ----------
+    first, second : complex
+        In 1/s.
+
+    Examples
+    --------
     >>> format_root(-0.5 + 2j, -0.5 - 2j), format_root(1.0 + 0j), format_root(1.0 + 0j, 2.0 + 0j)
     ('-0.500 ± 2.000i', '1.000', '1.000, 2.000')
     """

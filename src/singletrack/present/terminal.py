@@ -165,6 +165,7 @@ class Terminal(Console):
 
     @size.setter
     def size(self, new: tuple[int, int]) -> None:
+        """Set columns and rows to new ones."""
         self.width, self.height = new
 
     def print(self, *objects: Any, **options: Any) -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from singletrack.files.toml_write import unit_text
 
@@ -13,7 +13,26 @@ if TYPE_CHECKING:
     from singletrack.linear import CriticalSpeeds
     from singletrack.linear.critical import Crossing
 
-__all__ = ["critical_speed_lines", "deviation_text", "quantity_text", "range_text", "speed_text"]
+__all__ = [
+    "KILOMETRES",
+    "METRES",
+    "SpeedUnit",
+    "critical_speed_lines",
+    "deviation_text",
+    "quantity_text",
+    "range_text",
+    "speed_text",
+]
+
+
+class SpeedUnit(NamedTuple):
+    """A unit of speed in figures: its name, and what a speed in m/s is multiplied with."""
+
+    name: str
+    factor: float
+
+
+METRES, KILOMETRES = SpeedUnit("m/s", 1.0), SpeedUnit("km/h", 3.6)
 
 
 def quantity_text(values: Sequence[float], unit: str) -> str:

@@ -10,11 +10,15 @@ from singletrack.body.oddities import warn_of_oddities
 from singletrack.linear import CriticalSpeeds, Modes, StateSpace, critical_speeds, eigenvalues, modes, state_space
 from singletrack.model import LinearModel
 from singletrack.posture import Options, named_posture, require_posture, require_records
+from singletrack.present.latex import latex_table
 from singletrack.public.display import lines_of_model, table_of_model
+from singletrack.public.plotting import figure_of_model
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
     from pathlib import Path
+
+    from matplotlib.figure import Figure
 
     from singletrack.arrays import Array
     from singletrack.parameters import Bicycle, Rider
@@ -68,6 +72,61 @@ class CoefficientMatrices(LinearModel):
     def critical_speeds(self) -> CriticalSpeeds:
         """Return weave and capsize speeds and the stable ranges (see :class:`CriticalSpeeds`)."""
         return critical_speeds(self)
+
+    def plot(
+        self,
+        speeds: Array = (0.0, 10.0),
+        *,
+        width: float = 84.0,
+        title: str = "",
+        kmh: bool = False,
+        limit: float = 10.0,
+    ) -> Figure:
+        """Return a figure of the eigenvalues over the forward speed; notebooks show it.
+
+        Parameters
+        ----------
+        speeds : array, shape (k,)
+            The lowest and the highest speed, or all speeds to compute, in m/s.
+        width : float
+            In mm: 84 for one column of a journal, 174 for two.
+        title : str
+            By default none.
+        kmh : bool
+            Show speeds in km/h.
+        limit : float
+            The vertical axis runs from -limit to limit, in 1/s.
+
+        Returns
+        -------
+        matplotlib Figure
+            Of a single design; a batch of m designs (up to a few dozen) is overlaid.
+
+        Raises
+        ------
+        InputError
+            For a batch of more than one axis, or a speed that is negative or not finite.
+
+        Examples
+        --------
+        >>> from singletrack import coefficients, load_bicycle
+        >>> figure = coefficients(load_bicycle("benchmark")).plot(title="benchmark")
+        >>> [text.get_text() for text in figure.axes[0].texts][0]
+        'weave speed 4.29 m/s'
+        """
+        return figure_of_model(self, speeds, width=width, title=title, kmh=kmh, limit=limit)
+
+    def to_latex(self, caption: str = "", digits: int = 5) -> str:
+        """Return the matrices and critical speeds of a single design as a table of LaTeX.
+
+        Parameters
+        ----------
+        caption : str
+            Plain text; empty for none.
+        digits : int
+            Significant digits.
+        """
+        return latex_table(self, self.critical_speeds(), caption, digits)
 
     def state_space(self, speed: Array) -> StateSpace:
         """Return the equations at one or several forward speeds in m/s as first-order systems (:class:`StateSpace`)."""

@@ -23,6 +23,9 @@ __all__ = ["SPEEDS", "WIDE_TORSO", "Case", "paper_cases"]
 #: The papers' range, 0 to 10 m/s.
 SPEEDS = np.linspace(0.0, 10.0, 1001)
 
+#: At the lean hinge, in N m/rad and N m s/rad, as the journal version has them.
+_SPRING, _DAMPER = {"torso lean": 100.0}, {"torso lean": 10.0}
+
 #: Width of a torso, in m, from which the printed numbers of the leaned rider follow: found by trying, none gives it.
 WIDE_TORSO = 0.40
 
@@ -101,5 +104,10 @@ def paper_cases() -> dict[str, Case]:
         Case(hybrid, wide, Options("leaned"), "wide"),
         Case(city, rider, Options("rigid")),
         Case(city, rider, Options("upright")),
+        Case(hybrid, wide, Options("leaned", torso_lean=True), "leaning"),
+        Case(city, wide, Options("upright", torso_lean=True), "leaning"),
+        Case(hybrid, rider, Options("leaned", torso_lean=True), "leaning-default"),
+        Case(city, rider, Options("upright", torso_lean=True), "leaning-default"),
+        Case(hybrid, wide, Options("leaned", torso_lean=True, springs=_SPRING, dampers=_DAMPER), "sprung"),
     ]
     return {case.name: case for case in cases}

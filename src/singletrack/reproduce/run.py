@@ -9,7 +9,9 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 
 from singletrack.analysis.outline import turned
 from singletrack.body.skeleton import POINT_NAMES
+from singletrack.control import control_summary
 from singletrack.output import prepare_folder, write_whole
+from singletrack.present.control import angles_figure
 from singletrack.present.drawings import posture_figure
 from singletrack.present.eigenvalues import eigenvalue_figure
 from singletrack.present.measured import measured_figure
@@ -17,7 +19,7 @@ from singletrack.present.phasors import phasor_figure
 from singletrack.present.style import figure_bytes
 from singletrack.present.tables import eigenvalues_csv, write_csv
 from singletrack.present.terminal import Terminal
-from singletrack.reproduce.cases import Case, paper_cases
+from singletrack.reproduce.cases import SPEEDS, Case, paper_cases
 from singletrack.reproduce.engines import compare_engines
 from singletrack.reproduce.measured import MeasuredCase, measured_case
 from singletrack.reproduce.report import Picture, html_report, markdown_report
@@ -64,7 +66,7 @@ def reproduce(output: Path) -> Path:
     columns = (TextColumn("{task.description:<34}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
     with Progress(*columns, console=Terminal(stderr=True)) as progress:
         cases, measured = paper_cases(), measured_case()
-        jobs = [*_drawings(cases), _measured_drawing(measured)]
+        jobs = [*_drawings(cases), *_control_drawings(cases), _measured_drawing(measured)]
         task = progress.add_task("matrices, eigenvalues, statements", total=len(jobs) + 3)
         statements = check_statements(cases, measured)
         _write_tables(output, cases, statements)
@@ -112,6 +114,20 @@ def _drawings(cases: dict[str, Case]) -> Iterator[tuple[Picture, Callable[[], Fi
             f"{bicycle.title()}: eigenmotions at {_PHASOR_SPEED:g} m/s in each posture, lean and steer as phasors."
         )
         yield Picture(f"eigenmotions-{bicycle}", caption, bicycle), phasors(bicycle)
+
+
+def _control_drawings(cases: dict[str, Case]) -> Iterator[tuple[Picture, Callable[[], Figure]]]:
+    """Yield the journal's figures 7 and 8: how well steer and torso torque reach the modes."""
+    inputs = ("steer torque", "torso torque")
+    for number, name, title in (
+        ("7", "stratos-2012-leaned-leaning", "Hybrid, leaned rider with leaning torso"),
+        ("8", "browser-2012-upright-leaning", "City bicycle, upright rider with leaning torso"),
+    ):
+
+        def draw(name: str = name, title: str = title) -> Figure:
+            return angles_figure(control_summary(cases[name].model, SPEEDS[::20], inputs, efforts=False), title)
+
+        yield Picture(f"figure-journal-{number}", f"Figure {number} of the journal version. {title}.", name), draw
 
 
 def _measured_drawing(case: MeasuredCase) -> tuple[Picture, Callable[[], Figure]]:

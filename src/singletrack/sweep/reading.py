@@ -46,7 +46,7 @@ class Condition:
 
 
 def open_sweep(path: str | Path, *, unfinished: bool = False) -> xarray.Dataset:
-    """Open a sweep: lazily, labelled, with units and provenance, every file checked as it is read.
+    """Open a sweep: labelled, with units and provenance, every file checked as it is read: lazily, but for grids.
 
     Designs are on the dimension ``design``, with the parameters that vary as coordinates; designs of a grid have a
     dimension for each parameter instead. ``status`` says of each design whether it is computed (1), faulty (2) or not

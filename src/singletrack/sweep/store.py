@@ -191,6 +191,14 @@ def open_store(study: Study, output: Path) -> Iterator[Store]:
         if not (partial / JOURNAL).exists():  # nothing was begun, or all is done
             _remove(partial)
         lock.release()
+        if os.name == "nt" and not (partial / JOURNAL).exists():  # where a lock that is held cannot be removed
+            _remove_lock(partial)
+
+
+def _remove_lock(partial: Path) -> None:
+    with suppress(OSError):
+        (partial / LOCK).unlink()
+        partial.rmdir()
 
 
 def tidy(output: Path) -> None:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 import numpy as np
 import pytest
 
@@ -124,3 +126,18 @@ def test_tyres_without_delay_are_dampers_of_the_slip():
     found = np.sort_complex(values[abs(values) > 1e-3])
     tyre = Tyre(cornering)
     np.testing.assert_allclose(found, tyre_model(bicycle, tyre, tyre).eigenvalues(speed)[0], rtol=1e-7)
+
+
+def test_the_dialect_of_delft_gives_the_same_bicycle():
+    """Bodies are beams with one orientation at both ends there, and ENHC pairs slips with kinematic coordinates."""
+    bicycle = load_bicycle("stratos")
+    twente = bicycle_file(bicycle)
+    delft = re.sub(r"pinbody (\d+) (\d+) (\d+) (\d+)", r"BEAM \1 \2 \3 \4 \3", twente).replace("xm ", "MASS ")
+    delft = delft.replace("% bicycle", "* bicycle").replace("halt\n", "")
+    delft = delft.replace("kine 9 1\nkine 13 1", "ENHC 10 5 9 1\nENHC 10 6 13 1")
+    models = [spacar.read_text(text) for text in (twente, delft)]
+    assert [model.description.dialect for model in models] == ["twente", "delft"]
+    one, other = (model.linearise(model.motion(model.state(ed={(11, 1): 20.0}))) for model in models)
+    assert other.coordinates == one.coordinates
+    for name in ("M", "C", "K", "N", "G"):
+        np.testing.assert_allclose(getattr(other, name), getattr(one, name), rtol=1e-10, atol=1e-9)

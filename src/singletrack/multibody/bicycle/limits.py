@@ -12,7 +12,7 @@ from singletrack.parameters.flexible import FORK_BENDING, FRAME_TORSION
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from singletrack.multibody.engine.connections import Closure
+    from singletrack.multibody.engine.closures import Closure
     from singletrack.multibody.engine.elements import Joint
 
 __all__ = ["riding_limits"]

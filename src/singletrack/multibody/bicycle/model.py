@@ -23,7 +23,8 @@ from singletrack.multibody.bicycle.parametrise import Numbers
 from singletrack.multibody.bicycle.rider import frame_segments, preload_name, rider_elements
 from singletrack.multibody.engine.assembly import assemble, move
 from singletrack.multibody.engine.connections import CoordinateForce, Wheel
-from singletrack.multibody.engine.elements import GROUND, Body, free, revolute
+from singletrack.multibody.engine.elements import GROUND, Body
+from singletrack.multibody.engine.joints import free, revolute
 from singletrack.multibody.engine.model import Model, build
 from singletrack.multibody.engine.system import System
 from singletrack.parameters.bodies import bicycle_bodies
@@ -75,6 +76,13 @@ def _solid(numbers: Numbers, name: str, solid: Solid) -> Body:
     )
 
 
+def _wheel(bicycle: Bicycle, numbers: Numbers, end: str, hub: tuple[Scalar, ...]) -> Wheel:
+    """Return a wheel, on a round tyre where the bicycle has one."""
+    name, crown = f"{end} wheel", getattr(bicycle, f"{end}_tyre_radius")
+    radius = numbers.always(f"{end} radius", getattr(bicycle, f"{end}_wheel_radius"))
+    return Wheel(name, name, hub, radius, crown=0.0 if crown is None else numbers.number(f"{end} tyre radius", crown))
+
+
 def _elements(bicycle: Bicycle, posture: Posture | None, options: Options, numbers: Numbers) -> dict[str, Any]:
     solids = {name: body.body() for name, body in bicycle_bodies(bicycle).items()}
     if posture is not None:
@@ -108,10 +116,7 @@ def _elements(bicycle: Bicycle, posture: Posture | None, options: Options, numbe
         revolute("front wheel", fork, "front wheel", hubs["front"], (0, 1, 0)),
     ]
     bodies += [Body(name) for name in (head, fork) if name not in {"rear frame", "front frame"}]
-    wheels = [
-        Wheel(f"{end} wheel", f"{end} wheel", hub, numbers.always(f"{end} radius", -solids[f"{end} wheel"].centre[2]))
-        for end, hub in hubs.items()
-    ]
+    wheels = [_wheel(bicycle, numbers, end, hub) for end, hub in hubs.items()]
     freedoms = (*(() if posture is None else posture.freedoms), *soft)
     inputs = [
         CoordinateForce("lean torque", "lean"),

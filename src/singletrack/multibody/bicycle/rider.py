@@ -5,8 +5,9 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from singletrack.mechanics import combine
-from singletrack.multibody.engine.connections import Closure, close_point
-from singletrack.multibody.engine.elements import Body, prismatic, revolute
+from singletrack.multibody.engine.closures import Closure, close_point
+from singletrack.multibody.engine.elements import Body
+from singletrack.multibody.engine.joints import prismatic, revolute
 from singletrack.posture import HANDLEBAR
 
 if TYPE_CHECKING:

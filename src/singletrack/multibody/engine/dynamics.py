@@ -10,7 +10,10 @@ import numpy as np
 
 from singletrack.arrays import Array
 from singletrack.errors import ModelError, unknown_name
-from singletrack.multibody.engine.assembly import refuse_undefined, span_of
+from singletrack.multibody.engine.articulated import tree_expression
+from singletrack.multibody.engine.assembly import SINGULAR_HERE, refuse_undefined, span_of
+from singletrack.multibody.engine.kept import kept
+from singletrack.multibody.engine.reduction import MOST_ROWS, reduced_expression
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -19,9 +22,10 @@ if TYPE_CHECKING:
     from singletrack.multibody.engine.partition import Partition
     from singletrack.multibody.engine.system import System
 
-__all__ = ["Response", "accelerations", "loop_forces", "reduced", "split_wheel_forces", "wheel_forces"]
+__all__ = ["Response", "accelerations", "expression", "loop_forces", "reduced", "split_wheel_forces", "wheel_forces"]
 
 MASSLESS = 1e-13
+MOST_COORDINATES = 40
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,8 +55,32 @@ def reduced(model: Model, parts: Partition) -> ca.Function:
 
     u_i are the independent speeds. With T from C T = 0 and b from C b = -c, the accelerations obey
     ``T^T M T a_i = -T^T (h + M b)``; the linear systems are solved numerically in every evaluation.
+
+    Parameters
+    ----------
+    model : Model
+        The machine.
+    parts : Partition
+        Which speeds are independent.
     """
     key = ("reduced", parts)
+    if key not in model.cache:
+        model.cache[key] = kept(expression(model, parts))
+    function: ca.Function = model.cache[key]
+    return function
+
+
+def expression(model: Model, parts: Partition) -> ca.Function:
+    """Return the function of :func:`reduced` as an expression, which can be differentiated.
+
+    Parameters
+    ----------
+    model : Model
+        The machine.
+    parts : Partition
+        Which speeds are independent.
+    """
+    key = ("expression", parts)
     if key not in model.cache:
         model.cache[key] = _reduced(model, parts)
     function: ca.Function = model.cache[key]
@@ -64,6 +92,16 @@ def _solve(matrix: Any, right: Any) -> Any:
 
 
 def _reduced(model: Model, parts: Partition) -> ca.Function:
+    system = model.system
+    if not system.rows and parts.independent_speeds == tuple(range(len(system.coordinates))):
+        return tree_expression(system, model.equations)
+    if len(parts.rows) <= MOST_ROWS and len(system.coordinates) <= MOST_COORDINATES:
+        sizes = len(system.coordinates), len(system.inputs), len(system.rows)
+        return reduced_expression(model.equations, parts, sizes)
+    return _reduced_numerically(model, parts)
+
+
+def _reduced_numerically(model: Model, parts: Partition) -> ca.Function:
     system, equations = model.system, model.equations
     n, rows = len(system.coordinates), list(parts.rows)
     free, dependent = list(parts.independent_speeds), list(parts.dependent_speeds)
@@ -89,7 +127,7 @@ def _reduced(model: Model, parts: Partition) -> ca.Function:
     multipliers = ca.MX(len(system.rows), 1)
     if dependent:
         multipliers[rows] = _solve(own.T, (mass @ a + h)[dependent])
-    return ca.Function("reduced", [q, ui, f, p], [u, ca.densify(a), ca.densify(multipliers)])
+    return ca.Function("solved", [q, ui, f, p], [u, ca.densify(a), ca.densify(multipliers)])
 
 
 def accelerations(state: State, inputs: Mapping[str, float] | None = None) -> Response:
@@ -112,13 +150,25 @@ def accelerations(state: State, inputs: Mapping[str, float] | None = None) -> Re
     _refuse_massless(state)
     function = reduced(state.model, state.partition)
     ui = state.u[list(state.partition.independent_speeds)]
-    _, a, multipliers = function(state.q, ui, f, state.parameters)
+    try:
+        _, a, multipliers = function(state.q, ui, f, state.parameters)
+    except RuntimeError:  # the linear solver's word for an exactly singular matrix
+        raise ModelError(SINGULAR_HERE) from None
     a, multipliers = a.full().ravel(), multipliers.full().ravel()
+    if not np.all(np.isfinite(a)):
+        raise ModelError(SINGULAR_HERE)
     return Response(a, multipliers)
 
 
 def loop_forces(state: State, inputs: Mapping[str, float] | None = None) -> dict[str, Array]:
     """Return the force (3,) of the first body on the second of every closed loop, in the ground's frame, N.
+
+    Parameters
+    ----------
+    state : State
+        Whose accelerations decide the forces.
+    inputs : mapping, optional
+        Values of inputs by name, N or N m; those not given are zero.
 
     Examples
     --------
@@ -144,6 +194,17 @@ def wheel_forces(state: State, inputs: Mapping[str, float] | None = None) -> dic
 
     The normal force is positive when the wheel presses on the ground.
 
+    By the wheels' names, each of shape (3,).
+
+    Parameters
+    ----------
+    state : State
+        Whose accelerations decide the forces.
+    inputs : mapping, optional
+        Values of inputs by name, N or N m; those not given are zero.
+
+    Examples
+    --------
     >>> from singletrack import load_bicycle
     >>> from singletrack.multibody import bicycle_model, ride
     >>> loads = wheel_forces(ride(bicycle_model(load_bicycle("benchmark")), 0.0))
@@ -155,7 +216,14 @@ def wheel_forces(state: State, inputs: Mapping[str, float] | None = None) -> dic
 
 
 def split_wheel_forces(system: System, multipliers: Array) -> Array:
-    """Return (k, wheels, 3) longitudinal, lateral and normal forces from multipliers (k, rows), N."""
+    """Return (k, wheels, 3) longitudinal, lateral and normal forces from multipliers (k, rows), N.
+
+    Parameters
+    ----------
+    system : System
+        The machine.
+    multipliers : array, shape (k, rows)
+    """
     holonomic, wheels = len(system.holonomic_rows), len(system.wheels)
     normal = -multipliers[:, holonomic - wheels : holonomic]
     rolling = multipliers[:, holonomic:].reshape(len(multipliers), wheels, 2)

@@ -35,7 +35,8 @@ from singletrack.multibody.engine.forces import (
 from singletrack.multibody.engine.kinematics import SX, Frame, Wrench, column, forward, inverse, unit
 
 if TYPE_CHECKING:
-    from singletrack.multibody.engine.connections import Closure, Spring
+    from singletrack.multibody.engine.closures import Closure
+    from singletrack.multibody.engine.connections import Spring
     from singletrack.multibody.engine.system import System
 
 __all__ = ["Equations", "derive"]
@@ -55,6 +56,10 @@ class Equations:
         (q, p) -> constraint Jacobian C (rows, n), mass matrix M (n, n).
     bias
         (q, u, f, p) -> h (n,), c (rows,).
+    demand
+        (q, u, a, f, p) -> M a + h (n,), in one pass.
+    inertia
+        (q, v, p) -> M v (n,), without M.
     tangent
         (q, u, a, m, f, dq, du, p) -> the changes of R, C u and C a + c in the direction (dq, du), the latter two
         with the rates themselves held.
@@ -81,6 +86,8 @@ class Equations:
     holonomic: ca.Function
     kinetics: ca.Function
     bias: ca.Function
+    demand: ca.Function
+    inertia: ca.Function
     tangent: ca.Function
     input_matrix: ca.Function
     energy: ca.Function
@@ -175,6 +182,11 @@ def _loop_wrenches(system: System, s: _Symbols) -> tuple[SX, SX]:
 def derive(system: System) -> Equations:
     """Derive the equations of motion of a machine (see the module's text).
 
+    Parameters
+    ----------
+    system : System
+        Bodies, joints, loops, wheels, forces.
+
     Raises
     ------
     ModelError
@@ -206,6 +218,8 @@ def derive(system: System) -> Equations:
         "holonomic": ((s.q,), (s.phi, jacobian[: s.phi.numel(), :])),
         "kinetics": ((s.q,), (jacobian, mass)),
         "bias": ((s.q, s.u, s.f), (bias, rate_change)),
+        "demand": ((s.q, s.u, s.a, s.f), (s.demand,)),
+        "inertia": ((s.q, dq), (ca.jtimes(s.demand, s.a, dq),)),
         "tangent": (
             (s.q, s.u, s.a, s.m, s.f, dq, du),
             (change[:n], ca.jtimes(s.rate, s.q, dq), change[n:]),

@@ -8,7 +8,7 @@ machine far from the origin loses no digits.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
 
 import casadi as ca
 
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 __all__ = ["Frame", "Wrench", "forward", "inverse", "rotation_about"]
 
-SX: TypeAlias = Any
+SX: TypeAlias = ca.SX
 DOWN = ca.SX([0, 0, 1])
 
 
@@ -38,7 +38,15 @@ def unit(vector: Vector) -> SX:
 
 
 def rotation_about(axis: SX, angle: SX) -> SX:
-    """Return the rotation matrix about a unit axis (Rodrigues)."""
+    """Return the rotation matrix about a unit axis (Rodrigues).
+
+    Parameters
+    ----------
+    axis : SX, shape (3,)
+        A unit vector.
+    angle : SX, scalar
+        In rad.
+    """
     c, s = ca.cos(angle), ca.sin(angle)
     return c * ca.SX.eye(3) + s * ca.skew(axis) + (1 - c) * (axis @ axis.T)
 
@@ -85,7 +93,7 @@ class Wrench:
 
 
 @dataclass(frozen=True, eq=False)
-class _Link:
+class Link:
     """A joint in motion: the arm from the parent's anchor to the child's, and the axes of its motions.
 
     ``levers`` lead from where each motion turns to the child's anchor: not zero where a slide follows a turn.
@@ -113,7 +121,7 @@ def quaternion_turn(q: SX) -> tuple[SX, SX]:
     return turn, 2 * ca.horzcat(-v, e * ca.SX.eye(3) + ca.skew(v)) / square
 
 
-def _carry(parent: Frame, joint: Joint, q: SX, u: SX, a: SX) -> tuple[Frame, _Link]:
+def _carry(parent: Frame, joint: Joint, q: SX, u: SX, a: SX) -> tuple[Frame, Link]:
     point = column(joint.point)
     arm = parent.arm(point)
     rotation, spin, angular = parent.rotation, parent.spin, parent.angular_acceleration
@@ -144,7 +152,7 @@ def _carry(parent: Frame, joint: Joint, q: SX, u: SX, a: SX) -> tuple[Frame, _Li
         reached += [arm] * 4
         rotation = rotation @ turn
     frame = Frame(point, parent.position + arm, rotation, velocity, spin, acceleration, angular)
-    return frame, _Link(arm, tuple(axes), tuple(arm - before for before in reached))
+    return frame, Link(arm, tuple(axes), tuple(arm - before for before in reached))
 
 
 def tree_order(system: System) -> list[Joint]:
@@ -159,7 +167,7 @@ def tree_order(system: System) -> list[Joint]:
     return order
 
 
-def slices(system: System) -> dict[str, slice]:
+def coordinates_by_joint(system: System) -> dict[str, slice]:
     """Return which coordinates belong to each joint."""
     found, start = {}, 0
     for joint in system.joints:
@@ -168,10 +176,18 @@ def slices(system: System) -> dict[str, slice]:
     return found
 
 
-def forward(system: System, q: SX, u: SX, a: SX) -> tuple[dict[str, Frame], dict[str, _Link]]:
-    """Return the frames of all bodies and the links of all joints for coordinates, speeds and accelerations (n,)."""
+def forward(system: System, q: SX, u: SX, a: SX) -> tuple[dict[str, Frame], dict[str, Link]]:
+    """Return the frames of all bodies and the links of all joints for coordinates, speeds and accelerations (n,).
+
+    Parameters
+    ----------
+    system : System
+        The machine.
+    q, u, a : SX, shape (n,)
+        Joint coordinates, speeds and accelerations.
+    """
     frames, links = {GROUND: ground_frame()}, {}
-    place = slices(system)
+    place = coordinates_by_joint(system)
     for joint in tree_order(system):
         own = place[joint.name]
         frames[joint.child], links[joint.name] = _carry(frames[joint.parent], joint, q[own], u[own], a[own])
@@ -197,16 +213,25 @@ def inertial_wrench(body: Body, frame: Frame) -> Wrench:
 
 
 def inverse(
-    system: System, frames: Mapping[str, Frame], links: Mapping[str, _Link], applied: Mapping[str, Wrench]
+    system: System, frames: Mapping[str, Frame], links: Mapping[str, Link], applied: Mapping[str, Wrench]
 ) -> tuple[SX, dict[str, Wrench]]:
     """Return the generalised forces (n,) that the motion takes beyond the applied wrenches, and the joints' wrenches.
 
     Recursive Newton-Euler: the wrench every joint must transmit, from the tips of the tree to the ground.
+
+    Parameters
+    ----------
+    system : System
+        The machine.
+    frames, links : mapping
+        Of :func:`forward`, by name.
+    applied : mapping
+        Wrenches by body.
     """
     bodies = {body.name: body for body in system.bodies}
     carried: dict[str, Wrench] = {}
     through: dict[str, Wrench] = {}
-    place = slices(system)
+    place = coordinates_by_joint(system)
     forces: dict[int, SX] = {}
     for joint in reversed(tree_order(system)):
         child, link = joint.child, links[joint.name]

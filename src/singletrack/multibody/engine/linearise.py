@@ -14,10 +14,9 @@ import numpy as np
 
 from singletrack.arrays import Array
 from singletrack.errors import ModelError, unknown_name
-from singletrack.model import LinearModel
-from singletrack.multibody.engine.assembly import move
 from singletrack.multibody.engine.dynamics import accelerations, input_vector
 from singletrack.multibody.engine.model import State
+from singletrack.multibody.engine.observe import observe, observe_responses
 from singletrack.multibody.engine.variations import vary
 
 if TYPE_CHECKING:
@@ -26,7 +25,7 @@ if TYPE_CHECKING:
     from singletrack.multibody.engine.dynamics import Response
     from singletrack.multibody.engine.variations import Variations
 
-__all__ = ["Linearisation", "linearise", "speed_polynomials"]
+__all__ = ["Linearisation", "linearise"]
 
 LAST_DIGITS = 1e-13
 TRIALS = 3
@@ -81,6 +80,13 @@ class Linearisation:
 
     def select(self, names: Sequence[str]) -> tuple[Array, Array, Array, Array]:
         """Return M, C, K, B of some freedoms that move by themselves, such as lean and steer in straight running.
+
+        M, C and K have the shape (k, k), B (k, inputs).
+
+        Parameters
+        ----------
+        names : sequence of str
+            Of the freedoms, k of them.
 
         Raises
         ------
@@ -193,11 +199,11 @@ def linearise(
     observed = tuple(outputs) if outputs is not None else (*coordinates, *(f"{name}'" for name in speeds))
     directions = np.hstack([v.coordinate_directions[:, kept], np.zeros_like(v.span)])
     speed_directions = np.hstack([v.speed_changes[:, kept], v.span])
-    seen = _observe(state, observed, directions, speed_directions)
+    seen = observe(state, observed, directions, speed_directions)
     through = np.zeros((len(observed), r))
     if any(name.endswith("''") or name in system.rows for name in observed):
         columns = [*kept, *range(v.K.shape[1], v.K.shape[1] + m)]
-        _observe_responses(state, observed, v, columns, solved, seen, through)
+        observe_responses(state, observed, v, columns, solved, seen, through)
     return Linearisation(
         state,
         coordinates,
@@ -226,112 +232,3 @@ def _refuse_unsteady(state: State, response: Response, kept: Sequence[str]) -> N
     for name in kept:
         if abs(state.rate(name)) > 1e-9 * scale:
             raise ModelError(f"not a steady motion: {name} matters, and changes at the rate {state.rate(name):.3g}")
-
-
-def _observe(state: State, names: Sequence[str], dq: Array, du: Array) -> Array:
-    """Return the derivatives (outputs, directions) of named outputs along directions of coordinates and speeds."""
-    system = state.model.system
-    sensors = [sensor.name for sensor in system.sensors]
-    sensed = np.zeros((len(sensors), dq.shape[1]))
-    if any(name in sensors for name in names):
-        by_q, by_u = _sensor_gradients(state)
-        sensed = by_q @ dq + by_u @ du
-    rows = []
-    for name in names:
-        if name in sensors:
-            rows.append(sensed[sensors.index(name)])
-        elif name in system.rows or name.removesuffix("''") != name:
-            rows.append(np.zeros(dq.shape[1]))  # filled in by what the machine responds
-        elif name.removesuffix("'") in system.coordinates:
-            place = system.coordinates.index(name.removesuffix("'"))
-            rows.append(du[place] if name.endswith("'") else dq[place])
-        else:
-            raise ModelError(unknown_name("output", name, (*system.coordinates, *sensors)))
-    return np.array(rows).reshape(len(names), dq.shape[1])
-
-
-def _observe_responses(
-    state: State, names: Sequence[str], v: Variations, columns: list[int], solved: Array, seen: Array, through: Array
-) -> None:
-    """Fill in the rows of accelerations and of multipliers, in the states (C) and in the inputs (D)."""
-    system, parts = state.model.system, state.partition
-    jacobian, mass = state.model.kinetics(state.q, state.parameters)
-    drive = state.model.equations.input_matrix(state.q, state.parameters).full()
-    states = len(columns)
-    changed = v.acceleration_changes[:, columns] + v.span @ solved[:, :states]
-    pushed = v.span @ solved[:, states:]
-    multipliers = [np.zeros((len(system.rows), width)) for width in (states, drive.shape[1])]
-    rows, dependent = list(parts.rows), list(parts.dependent_speeds)
-    if rows:
-        own = jacobian[np.ix_(rows, dependent)].T
-        left = (mass @ changed + v.residual_changes[:, columns], mass @ pushed - drive)
-        for found, side in zip(multipliers, left, strict=True):
-            found[rows] = np.linalg.solve(own, side[dependent])
-    for i, name in enumerate(names):
-        if name in system.rows:
-            place = system.rows.index(name)
-            seen[i], through[i] = multipliers[0][place], multipliers[1][place]
-        elif name.endswith("''"):
-            if name[:-2] not in system.coordinates:
-                raise ModelError(unknown_name("output", name, system.coordinates))
-            place = system.coordinates.index(name[:-2])
-            seen[i], through[i] = changed[place], pushed[place]
-
-
-def _sensor_gradients(state: State) -> tuple[Array, Array]:
-    cache: dict[Any, Any] = state.model.cache
-    if "sensor gradients" not in cache:
-        cache["sensor gradients"] = state.model.equations.sensors.jacobian()
-    zero = np.zeros(len(state.model.system.sensors))
-    out = cache["sensor gradients"](state.q, state.u, state.parameters, zero)
-    return out[0].full(), out[1].full()
-
-
-def speed_polynomials(upright: State, rolling: Mapping[str, float], names: Sequence[str]) -> LinearModel:
-    """Return the linear model of straight running: the equations as exact polynomials in speed and gravity.
-
-    C0 and S0 come from dampers and springs. The equations of a machine are quadratic in its speeds and linear in
-    gravity, so the coefficients follow exactly from the linearisations at rest and at unit speed, without and with
-    gravity.
-
-    Parameters
-    ----------
-    upright
-        The machine at rest.
-    rolling
-        Rates of independent speeds at a forward speed of 1 m/s, such as ``{"rear wheel": -1 / radius}``.
-    names
-        The freedoms to keep, such as ``("lean", "steer")``; any number of them.
-
-    Returns
-    -------
-    LinearModel
-        Of these coordinates and of all inputs of the machine, at its gravity.
-
-    Examples
-    --------
-    >>> from singletrack import load_bicycle
-    >>> from singletrack.multibody import assemble, bicycle_model
-    >>> at_rest = assemble(bicycle_model(load_bicycle("benchmark")))
-    >>> speed_polynomials(at_rest, {"rear wheel": -1 / 0.3}, ("lean", "steer")).K2.round(6).tolist()
-    [[0.0, 76.597346], [0.0, 2.654315]]
-    """
-    weightless = upright.parameters.copy()
-    weightless[0] = 0.0
-    heavy = upright.parameters.copy()
-    heavy[0] = 1.0
-    still = linearise(replace(upright, parameters=weightless), keep=names).select(names)
-    heavy_still = linearise(replace(upright, parameters=heavy), keep=names).select(names)
-    moving = linearise(move(replace(upright, parameters=weightless), rolling), keep=names).select(names)
-    return LinearModel(
-        M=still[0],
-        C0=still[1],
-        C1=moving[1] - still[1],
-        S0=still[2],
-        K0=heavy_still[2] - still[2],
-        K2=moving[2] - still[2],
-        B=still[3],
-        gravity=upright.parameters[0],
-        coordinates=tuple(names),
-        inputs=tuple(given.name for given in upright.model.system.inputs),
-    )

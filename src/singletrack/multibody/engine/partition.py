@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from scipy.linalg import qr
+from scipy.linalg import lu, qr
 
 from singletrack.errors import ModelError, unknown_name
 
@@ -36,6 +36,8 @@ class Partition:
         By the holonomic constraints.
     dependent_speeds, independent_speeds
         By all constraints; the independent speeds are the degrees of freedom.
+    pivots
+        The ``rows`` in the order in which to eliminate the dependent speeds, one for each.
     """
 
     rows: tuple[int, ...]
@@ -45,6 +47,7 @@ class Partition:
     independent_coordinates: tuple[int, ...]
     dependent_speeds: tuple[int, ...]
     independent_speeds: tuple[int, ...]
+    pivots: tuple[int, ...]
 
 
 def independent_rows(matrix: np.ndarray[Any, Any], tolerance: float = RANK_TOLERANCE) -> list[int]:
@@ -148,4 +151,14 @@ def partition(system: System, jacobian: np.ndarray[Any, Any], independent: Seque
         tuple(i for i in range(len(names)) if i not in coordinates),
         tuple(speeds),
         tuple(kept) if wanted is not None else tuple(i for i in range(len(names)) if i not in speeds),
+        _pivot_rows(jacobian, rows, speeds),
     )
+
+
+def _pivot_rows(jacobian: np.ndarray[Any, Any], rows: Sequence[int], speeds: Sequence[int]) -> tuple[int, ...]:
+    """Return the rows in the order of partial pivoting, each scaled to length one."""
+    if not rows:
+        return ()
+    order = lu(_normalised(jacobian[list(rows)])[:, list(speeds)], p_indices=True)[0]
+    # scipy returns where each row goes; the row that comes to a place is wanted
+    return tuple(rows[int(i)] for i in np.argsort(order))

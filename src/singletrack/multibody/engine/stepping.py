@@ -16,6 +16,7 @@ from singletrack.multibody.engine.events import Moment, Watched, passages
 from singletrack.multibody.engine.inputs import Signal
 from singletrack.multibody.engine.model import State
 from singletrack.multibody.engine.passing import NEAR, best_choice, continue_through
+from singletrack.multibody.engine.reduction import MOST_ROWS, pivot_growth
 from singletrack.multibody.engine.results import Snapshot
 from singletrack.multibody.engine.singular import RankLoss, Usual, find_rank_loss, firmness, weakest
 
@@ -83,10 +84,12 @@ def quality(state: State) -> tuple[float, float]:
     jacobian, _ = state.model.kinetics(state.q, state.parameters)
     dependent = jacobian[np.ix_(list(parts.rows), list(parts.dependent_speeds))]
     dependent = dependent / np.linalg.norm(jacobian[list(parts.rows)], axis=1, keepdims=True)
+    eliminated = dependent[[parts.rows.index(row) for row in parts.pivots]]
+    growth = pivot_growth(eliminated) if len(parts.rows) <= MOST_ROWS else 1.0
     try:
         fastest = float(np.max(abs(span_of(parts, jacobian)), initial=1.0))
-        return max(fastest, float(np.linalg.cond(dependent))), float(np.linalg.slogdet(dependent)[0])
-    except np.linalg.LinAlgError:
+        return max(fastest, float(np.linalg.cond(dependent)), growth), float(np.linalg.slogdet(dependent)[0])
+    except (ModelError, np.linalg.LinAlgError):
         return np.inf, 0.0
 
 
@@ -218,7 +221,7 @@ def _repeat(run: Run, bounds: tuple[float, float], solver: Any) -> None:
 def _choose_anew(run: Run) -> None:
     try:
         chosen = best_choice(run.state)
-    except ModelError as error:
+    except (ModelError, np.linalg.LinAlgError, ValueError) as error:
         raise HaltError(f"singular at t = {run.time:.6g} s: {error}") from None
     rank = len(run.state.partition.rows)
     if len(chosen.partition.rows) != rank or quality(chosen)[0] > HOPELESS:

@@ -9,16 +9,8 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 from singletrack.errors import ModelError, unknown_name
 from singletrack.multibody.engine.checks import check_axis, check_number, is_number
-from singletrack.multibody.engine.connections import (
-    Closure,
-    CoordinateForce,
-    Force,
-    Ratio,
-    Sensor,
-    Spring,
-    Torque,
-    Wheel,
-)
+from singletrack.multibody.engine.closures import Closure, Ratio
+from singletrack.multibody.engine.connections import CoordinateForce, Force, Sensor, Spring, Torque, Wheel
 from singletrack.multibody.engine.elements import GROUND, Body, Joint, Scalar, Vector
 from singletrack.multibody.engine.limits import Limit, Reach
 

@@ -5,40 +5,40 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from singletrack.multibody.spacar.kinds import KINDS
+from singletrack.multibody.spacar.rows import names_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from singletrack.multibody.spacar.description import Description
-    from singletrack.multibody.spacar.model import Spacar
+    from singletrack.multibody.spacar.layout import Layout
+    from singletrack.multibody.spacar.rows import Rows
 
 __all__ = ["listing"]
 
 _NODES = {"p2": "position", "o2": "angle", "p3": "position", "o3": "orientation"}
 
 
-def listing(model: Spacar) -> str:
+def listing(layout: Layout, rows: Rows) -> str:
     r"""Return a text that says what was understood: nodes, elements, masses, loads, freedoms.
 
     Parameters
     ----------
-    model
-        The model.
-
-    Raises
-    ------
-    ModelError
-        Where the freedoms are not whole.
+    layout
+        The model as arrays, with what the file says.
+    rows
+        Its chosen constraints and generalised coordinates.
 
     Examples
     --------
     >>> from singletrack.multibody.spacar.model import read_text
-    >>> print(listing(read_text("PLHINGE 1 1 2\nFIX 1\nDYNE 1 1\nMASS 2 2.0", "turn.dat")))  # doctest: +ELLIPSIS
+    >>> model = read_text("PLHINGE 1 1 2\nFIX 1\nDYNE 1 1\nMASS 2 2.0", "turn.dat")
+    >>> print(listing(model.layout, model.rows))  # doctest: +ELLIPSIS
     turn.dat: dialect of delft, in the plane, 2 nodes, 1 elements
     ...
     """
-    d = model.description
-    parts = [[_head(d)], _nodes(d), _elements(d), _carried(d), _freedoms(model)]
+    d = layout.description
+    parts = [[_head(d)], _nodes(d), _elements(d), _carried(d), _freedoms(layout, rows)]
     if d.remarks:
         parts.append(["without effect", *(f"  {remark}" for remark in d.remarks)])
     return "\n\n".join("\n".join(part) for part in parts if part)
@@ -90,12 +90,12 @@ def _carried(d: Description) -> list[str]:
     return ["masses, springs, loads", *lines] if lines else []
 
 
-def _freedoms(model: Spacar) -> list[str]:
-    d, rows = model.description, model.rows
-    lines = ["freedoms", f"  dynamic: {', '.join(model.freedoms) or 'none'}"]
-    kinds = {kind: model.names(kind) for kind in ("prescribed", "kinematic")}
+def _freedoms(layout: Layout, rows: Rows) -> list[str]:
+    d = layout.description
+    lines = ["freedoms", f"  dynamic: {', '.join(rows.names()) or 'none'}"]
+    kinds = {kind: names_of(layout, kind) for kind in ("prescribed", "kinematic")}
     lines += [f"  {kind}: {', '.join(names)}" for kind, names in kinds.items() if names]
-    fixed = sum(model.layout.e_is == "fixed")
+    fixed = sum(layout.e_is == "fixed")
     redundant = fixed - len(rows.constraints)
     lines.append(f"  {len(rows.free)} free coordinates, {fixed} constraints, {redundant} of them redundant")
     ports = [f"{port.number} force on {port.what} {port.key[0]} {port.key[1]}" for port in d.inputs]

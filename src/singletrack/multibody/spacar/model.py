@@ -15,7 +15,7 @@ from singletrack.multibody.spacar.evaluate import strains
 from singletrack.multibody.spacar.layout import Layout, lay_out
 from singletrack.multibody.spacar.linearise import SmallMotions, small_motions
 from singletrack.multibody.spacar.listing import listing
-from singletrack.multibody.spacar.rows import Rows, choose, names, solver_at
+from singletrack.multibody.spacar.rows import Rows, choose, names_of, solver_at
 from singletrack.multibody.spacar.simulate import simulate
 from singletrack.multibody.spacar.state import Motion, State, accelerate, configure, prescribed, rates
 from singletrack.multibody.spacar.statements import MOST_CHARACTERS, Source, parse, write
@@ -204,7 +204,7 @@ class Spacar:
         }
 
     def run(self, times: Array | None = None, forces: Mapping[Key, float] | None = None) -> list[Motion]:
-        """Return the motion from the initial state, at the times of the file's TIMESTEP or at others, s."""
+        """Return the motion from the initial state under ``forces``, at ``times`` (k,), s (by default of TIMESTEP)."""
         d = self.description
         if times is None:
             times = np.linspace(0.0, d.duration, d.steps + 1) if d.steps else np.zeros(1)
@@ -221,7 +221,7 @@ class Spacar:
         return equilibrium(self.rows, replace(self.state(), v=np.zeros_like(self.layout.drawn)), factor)
 
     def frequencies(self, motion: Motion | None = None) -> tuple[Array, Array]:
-        """Return natural frequencies, rad/s, (q,), and modes (q, q), about an equilibrium (that under the loads)."""
+        """Return natural frequencies, rad/s, (q,), and modes (q, q), about a motion at rest (the equilibrium)."""
         return frequencies(self.rows, self.equilibrium() if motion is None else motion)
 
     def buckling(self) -> Buckling:
@@ -230,7 +230,7 @@ class Spacar:
 
     def listing(self) -> str:
         """Return a text that says what was understood of the file."""
-        return listing(self)
+        return listing(self.layout, self.rows)
 
     def by_element(self, values: Array) -> dict[int, list[float]]:
         """Return values of deformations (m,) by element."""
@@ -244,8 +244,7 @@ class Spacar:
 
     def names(self, kind: str) -> tuple[str, ...]:
         """Return the names of the coordinates and deformations of a kind, such as ``kinematic``."""
-        layout = self.layout
-        return names(layout, np.flatnonzero(layout.x_is == kind), np.flatnonzero(layout.e_is == kind))
+        return names_of(self.layout, kind)
 
 
 def read_text(text: str, where: str = "model", mass: str = "consistent") -> Spacar:
@@ -271,6 +270,13 @@ def read_text(text: str, where: str = "model", mass: str = "consistent") -> Spac
 
 def read(path: str | Path, mass: str = "consistent") -> Spacar:
     """Return the model that a file describes, in either dialect.
+
+    Parameters
+    ----------
+    path : str or Path
+        Of the file.
+    mass : str
+        ``consistent`` or ``lumped``: how the mass of beams is spread.
 
     Raises
     ------

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from singletrack.multibody.spacar.model import Spacar
     from singletrack.multibody.spacar.state import Motion
 
-__all__ = ["linear_dict", "report", "statics"]
+__all__ = ["columns", "linear_dict", "report", "statics"]
 
 
 def linear_dict(small: SmallMotions) -> dict[str, Any]:
@@ -42,6 +42,30 @@ def linear_dict(small: SmallMotions) -> dict[str, Any]:
         "eigenvalues": np.stack([small.eigenvalues().real, small.eigenvalues().imag], axis=1),
     }
     return {name: value.tolist() if isinstance(value, np.ndarray) else value for name, value in values.items()}
+
+
+def columns(model: Spacar, motions: list[Motion]) -> tuple[list[str], list[list[float]]]:
+    r"""Return a motion as a table: names of columns, and a row for each time.
+
+    Parameters
+    ----------
+    model, motions
+        The model and its motion.
+
+    Examples
+    --------
+    >>> from singletrack.multibody.spacar.model import read_text
+    >>> model = read_text("PLHINGE 1 1 2\nFIX 1\nDYNE 1 1\nMASS 2 4.0\nED 1 1 3.0")
+    >>> names, rows = columns(model, model.run([0.0, 0.5]))
+    >>> names, rows[0]
+    (['time', 'x 1 1', 'x 2 1', 'e 1 1', 'ed 1 1', 'edd 1 1'], [0.0, 0.0, 0.0, 0.0, 3.0, 0.0])
+    """
+    layout = model.layout
+    header = ["time", *(f"x {node} {i}" for node, i in layout.x_index)]
+    header += [f"{what} {element} {i}" for what in ("e", "ed", "edd") for element, i in layout.e_index]
+    count = len(layout.e_index)
+    rows = [[m.state.time, *m.state.x, *m.state.e[:count], *m.rates[:count], *m.accelerations[:count]] for m in motions]
+    return header, [[float(value) + 0.0 for value in row] for row in rows]
 
 
 def report(model: Spacar, motion: Motion, small: SmallMotions) -> dict[str, Any]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from singletrack.reproduce.statements.control import control_statements
 from singletrack.reproduce.statements.founding import founding_statements
 from singletrack.reproduce.statements.journal import journal_statements
 from singletrack.reproduce.statements.measured import measured_statements
@@ -31,4 +32,9 @@ PAPERS = {
 
 def check_statements(cases: dict[str, Case], measured: MeasuredCase) -> list[Statement]:
     """Return all statements of the papers with what was computed for them, from all cases and the measured bicycle."""
-    return [*founding_statements(cases), *journal_statements(cases), *measured_statements(measured)]
+    return [
+        *founding_statements(cases),
+        *journal_statements(cases),
+        *control_statements(cases),
+        *measured_statements(measured),
+    ]

@@ -26,7 +26,13 @@ __all__ = ["founding_statements"]
 
 
 def founding_statements(cases: dict[str, Case]) -> list[Statement]:
-    """Return all statements of the founding paper with what was computed for them."""
+    """Return all statements of the founding paper with what was computed for them.
+
+    Parameters
+    ----------
+    cases : dict
+        The computed cases by name.
+    """
     return [*_general(cases["stratos-rigid"]), *_numbers(cases), *leaned_statements(cases), *upright_statements(cases)]
 
 
@@ -88,16 +94,15 @@ def _leaned_numbers(cases: dict[str, Case]) -> list[Statement]:
 
 def _general(case: Case) -> list[Statement]:
     """Section 2, on the Stratos with the rigid rider."""
-    modes, critical = case.modes, case.critical
-    roots, motions = modes.eigenvalues, modes.eigenmotions
+    return [*_weave_and_capsize(case), *_modes(case)]
+
+
+def _weave_and_capsize(case: Case) -> list[Statement]:
+    roots = case.modes.eigenvalues
+    weave, capsize = case.critical.weave[0], case.critical.capsize[0]
     meeting = float(meeting_speeds(characteristic_polynomial(case.model))[0])
     at_rest = np.sort(case.model.eigenvalues(0.0)[0].real)
-    weave, capsize = critical.weave[0], critical.capsize[0]
-    below, above = weave > SPEEDS, capsize < SPEEDS
-    emerged = meeting < SPEEDS
-    stable = np.all(roots.real < 0, axis=-1)
-    inside = (weave < SPEEDS) & (capsize > SPEEDS)
-    ratio = np.abs(motions[..., 1])
+    below, above, emerged = weave > SPEEDS, capsize < SPEEDS, meeting < SPEEDS
     return [
         Statement(
             "2",
@@ -126,6 +131,16 @@ def _general(case: Case) -> list[Statement]:
             f"(doubles in {np.log(2) / roots[above, 2].real.max():.1f} s)",
             bool((roots[above, 2].real > 0).all() and roots[above, 2].real.max() < 0.2),
         ),
+    ]
+
+
+def _modes(case: Case) -> list[Statement]:
+    critical, roots = case.critical, case.modes.eigenvalues
+    weave, capsize = critical.weave[0], critical.capsize[0]
+    stable = np.all(roots.real < 0, axis=-1)
+    inside = (weave < SPEEDS) & (capsize > SPEEDS)
+    ratio = np.abs(case.modes.eigenmotions[..., 1])
+    return [
         Statement(
             "2",
             "All eigenvalues have negative real parts between weave and capsize speed, and only there",

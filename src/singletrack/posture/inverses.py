@@ -1,0 +1,116 @@
+"""Solving the loops' equations: block by block where each loop has three joints of its own, else by one inverse."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from singletrack.arrays import Array, as_arrays, is_concrete, is_jax, stack
+from singletrack.arrays.faults import Fault, refuse_single
+from singletrack.errors import PostureError
+from singletrack.posture.twists import cross3, dot3
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from singletrack.posture.loops import Loops
+    from singletrack.posture.seated import Posture
+
+__all__ = ["solver_of"]
+
+#: Loops whose matrix (of sines of angles, arms scaled to their mean) is closer to singular than this cannot move.
+_SINGULAR = 1e-6
+
+
+def solver_of(
+    xp: Any, posture: Posture, loops: Loops, spin: Array, shape: tuple[int, ...]
+) -> tuple[Callable[[Array], Array], tuple[Fault, ...]]:
+    """Return a function from right sides (rows, p, N) to rates (joints that are not free, p, N), and faults.
+
+    Rates are NaN in designs whose loops cannot move.
+
+    Parameters
+    ----------
+    xp : namespace
+    posture : Posture
+    loops : Loops
+    spin : array, shape (3, n, N)
+        Axes of the joints, as in :class:`singletrack.posture.twists.Motion`.
+    shape : tuple of int
+        Of the batch of N designs.
+    """
+    own = posture.tree.points.own
+    if own is not None and not posture.tree.angles.index:
+        solve = _blocks(loops, own)
+        if solve is not None:
+            return solve, ()
+    matrix = loops.matrix(xp, spin, posture.tree.dependent)
+    inverse, faults = _inverse(xp.moveaxis(matrix, -1, 0), posture, shape)
+
+    def by_inverse(right: Array) -> Array:
+        return xp.moveaxis(xp.matmul(inverse, xp.moveaxis(right, -1, 0)), 0, -1)
+
+    return by_inverse, faults
+
+
+def _blocks(loops: Loops, own: np.ndarray) -> Callable[[Array], Array] | None:
+    """Return the solver of loops with three joints each of their own, or None if one is nearly singular."""
+    count = len(own)
+    mine = loops.columns[:, np.arange(count)[:, None], own]  # type: ignore[index]
+    one, two, three = (mine[:, :, k] for k in range(3))
+    rows = [cross3(two, three), cross3(three, one), cross3(one, two)]
+    volume = dot3(one, rows[0])
+    if is_concrete(volume):
+        size = sum(dot3(column, column) for column in (one, two, three))
+        of_rows = sum(dot3(row, row) for row in rows)
+        with np.errstate(invalid="ignore"):
+            # |A| |A⁻¹| (Frobenius) is at least σmax / σmin.
+            if not np.all(abs(np.asarray(size * of_rows)) * _SINGULAR**2 < abs(np.asarray(volume)) ** 2):
+                return None
+
+    def by_blocks(right: Array) -> Array:
+        sides = right.reshape(3, count, *right.shape[1:])
+        rates = stack([dot3(row[:, :, None], sides) for row in rows], -3) / volume[:, None, None]
+        return rates.reshape(3 * count, *right.shape[1:])
+
+    return by_blocks
+
+
+def _inverse(matrix: Array, posture: Posture, shape: tuple[int, ...]) -> tuple[Array, tuple[Fault, ...]]:
+    """Return the inverses of the loops' matrices (N, rows, joints), NaN where they cannot move, and these faults."""
+    xp, (matrix,) = as_arrays(matrix)
+    if not is_concrete(matrix):
+        return xp.linalg.inv(matrix), ()
+    numbers = np.asarray(matrix)
+    try:
+        inverse = np.linalg.inv(numbers)
+        # |A| |A⁻¹| (Frobenius) is at least σmax / σmin: enough to clear nearly all, at a tenth of the cost.
+        condition = np.linalg.norm(numbers, axis=(-2, -1)) * np.linalg.norm(inverse, axis=(-2, -1))
+    except np.linalg.LinAlgError:  # one of them is singular to the last bit
+        condition = np.full(numbers.shape[:-2], np.inf)
+    finite = np.isfinite(numbers).all(axis=(-2, -1))
+    suspect = finite & ~(condition * _SINGULAR < 1)
+    bad = np.zeros(finite.shape, dtype=bool)
+    if suspect.any():
+        singular_values = np.linalg.svd(numbers[suspect], compute_uv=False)
+        bad[suspect] = singular_values[..., -1] <= _SINGULAR * singular_values[..., 0]
+    faults = refuse_single([_singular(posture, numbers, bad, shape)]) if bad.any() else ()
+    if is_jax(matrix) or suspect.any():
+        inverse = xp.linalg.inv(xp.where(xp.asarray(bad)[..., None, None], xp.nan, matrix))
+    return inverse, faults
+
+
+def _singular(posture: Posture, matrices: Array, bad: Array, shape: tuple[int, ...]) -> Fault:
+    """Return the fault of loops that cannot follow, with the joint and the loop that it shows in."""
+    tree = posture.tree
+    left, _, right = np.linalg.svd(matrices[np.flatnonzero(bad)[0]])
+    joint = posture.joints[tree.dependent[int(np.argmax(abs(right[-1])))]].name
+    rows = [*tree.points.index, *tree.points.index, *tree.points.index, *tree.angles.index]
+    loop = posture.loops[rows[int(np.argmax(abs(left[:, -1])))]].name
+    text = (
+        f"posture {posture.name}: the hands cannot follow the grips when steering, because the loops through the arms "
+        f"are singular (an arm is stretched straight, or its axes line up): joint {joint} is not determined by the "
+        f"loops, loop {loop} cannot move all ways"
+    )
+    return Fault(bad.reshape(shape), text, {}, PostureError)

@@ -1,0 +1,51 @@
+"""The figure of a model, from its numbers."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from singletrack.errors import InputError
+from singletrack.linear import critical_speeds, modes
+from singletrack.linear.eigenvalues import checked_speeds
+from singletrack.present.plotting import Drawn, overlay_figure, single_figure
+from singletrack.present.words import KILOMETRES, METRES
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from singletrack.arrays import Array
+    from singletrack.model import LinearModel
+
+__all__ = ["figure_of_model"]
+
+_FINE, _MOST = 401, 50
+
+
+def figure_of_model(model: LinearModel, speeds: Array, *, width: float, title: str, kmh: bool, limit: float) -> Figure:
+    """Return a figure of eigenvalues over the speed (arguments and errors as :meth:`CoefficientMatrices.plot`).
+
+    Parameters
+    ----------
+    model : LinearModel
+        Of shape () or (m,).
+    speeds : array, shape (k,)
+    width : float
+    title : str
+    kmh : bool
+    limit : float
+    """
+    v = np.sort(checked_speeds(speeds))
+    if len(v) < 2 or v[0] == v[-1]:
+        raise InputError(f"speeds: found {v.tolist()}, must be at least the lowest and the highest in m/s")
+    fine = np.linspace(v[0], v[-1], _FINE) if len(v) == 2 else v
+    unit = KILOMETRES if kmh else METRES
+    if model.shape == ():
+        drawn = Drawn("", modes(model, fine), critical_speeds(model))
+        return single_figure(drawn, width, title, unit, limit)
+    if len(model.shape) > 1 or not 1 <= model.shape[0] <= _MOST:
+        raise InputError(f"plot: designs of shape {model.shape}, must be one, or up to {_MOST} along one axis")
+    kept = [(i, model[i]) for i in np.flatnonzero(model.valid)]
+    several = [Drawn(f"design {i}", modes(one, fine), critical_speeds(one)) for i, one in kept]
+    return overlay_figure(several, width, title, unit, limit, ("design", [float(i) for i, _ in kept]))
