@@ -25,6 +25,7 @@ __all__ = [
     "eigenvalues_csv",
     "eigenvalues_table",
     "format_root",
+    "rows_table",
     "write_csv",
 ]
 
@@ -59,6 +60,24 @@ def write_csv(header: Iterable[str], rows: Iterable[Iterable[Any]]) -> str:
     writer.writerow(header)
     writer.writerows(rows)
     return text.getvalue()
+
+
+def rows_table(title: str, headings: Sequence[str], rows: Iterable[Sequence[str]]) -> Table:
+    """Return a table for reading, its first column to the left.
+
+    Parameters
+    ----------
+    title : str
+    headings : sequence of str
+        Of the columns.
+    rows : iterable of sequences of str
+    """
+    table = _table(title)
+    for place, heading in enumerate(headings):
+        table.add_column(Words(heading, whole=True), justify="right" if place else "left")
+    for row in rows:
+        table.add_row(*(Words(cell, whole=True) for cell in row))
+    return table
 
 
 def coefficients_table(model: LinearModel, title: str, deviations: Mapping[str, np.ndarray] | None = None) -> Group:
