@@ -1,4 +1,4 @@
-"""A city bicycle that is self-stable with hands on the bar: found by the closed form, ridden by the other derivation."""
+"""A city bicycle self-stable with hands on the bar: found by the closed form, ridden by the other derivation."""
 
 from __future__ import annotations
 
