@@ -35,6 +35,7 @@ COMMANDS = {
     "design": "Search a design by aim: bounds, constraints, several starts; the front of two aims.",
     "list": "List the bicycles and riders that come with the package.",
     "show": "Print everything that follows from a bicycle or rider, with a drawing.",
+    "new": "Make a bicycle from a geometry sheet and what was weighed, with uncertainties.",
     "template": "Print a commented parameter file to fill in.",
     "schema": "Print the JSON schema of a parameter file, for editors.",
     "convert": "Read a bicycle or rider in any format and write it in another.",
