@@ -31,6 +31,7 @@ COMMANDS = {
     "eigenvalues": "Print the eigenvalues at forward speeds, one column for each mode.",
     "critical-speeds": "Print weave and capsize speeds and the stable ranges.",
     "plot": "Draw eigenvalues over speed or a parameter, of one bicycle or several; or the map of where it is stable.",
+    "compare": "Put bicycles side by side: what differs, critical speeds, modes, handling, with uncertainties.",
     "sensitivity": "Rank parameters by what they do to critical speeds, eigenvalues or matrices; Sobol's indices.",
     "design": "Search a design by aim: bounds, constraints, several starts; the front of two aims.",
     "list": "List the bicycles and riders that come with the package.",
