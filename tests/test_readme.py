@@ -19,7 +19,8 @@ COMMANDS = [
     line.partition("#")[0].strip()
     for block in re.findall(r"```sh\n(.*?)```", README.read_text(), re.DOTALL)
     for line in block.splitlines()
-    if line.startswith("singletrack ") and not re.search(r"MEASUREMENTS|STUDY|FILE\.dat", line)  # the user's own files
+    # All but those that take the user's own files.
+    if line.startswith("singletrack ") and not re.search(r"MEASUREMENTS|STUDY|RECORD|FILE\.dat", line)
 ]
 
 

@@ -155,6 +155,23 @@ def test_an_overdamped_torso_has_two_real_roots_and_leaves_capsize_its_name():
     assert abs(modes(model, capsize).eigenvalues[0, 2]) < 1e-9
 
 
+def test_a_torso_that_has_met_capsize_leaves_castering_its_name():
+    """Rider A's torso with 128 N m/rad and 50 N m s/rad: one root alone, one in a pair with capsize."""
+    model = coefficients(
+        load_bicycle("stratos"),
+        load_rider("rider-a"),
+        "leaned",
+        torso_lean=True,
+        springs={"torso lean": 128.0},
+        dampers={"torso lean": 50.0},
+    )
+    found = modes(model, [2.0, 5.0, 10.0])
+    assert found.applies[:, 3:5].all()
+    assert (found.eigenvalues[:, 4].real < found.eigenvalues[:, 3].real).all()
+    np.testing.assert_array_equal(found.eigenvalues[1:, 5], found.eigenvalues[1:, 2].conj())
+    assert not found.applies[1:, [2, 5]].any()
+
+
 def test_crossings_and_modes_have_the_same_names():
     for spring, damper in ((500.0, 30.0), (1e5, 100.0), (2000.0, 100.0)):
         model = with_torso(load_bicycle("stratos"), spring, damper)

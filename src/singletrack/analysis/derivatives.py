@@ -121,7 +121,17 @@ class Derivatives:
 def shifted(
     bicycle: Bicycle, rider: Rider | None, names: Sequence[str], shifts: np.ndarray
 ) -> tuple[Bicycle, Rider | None]:
-    """Return a batch of n designs with parameters changed by shifts (n, k), SI."""
+    """Return a batch of n designs with parameters changed by shifts (n, k), SI.
+
+    Parameters
+    ----------
+    bicycle, rider : Bicycle, Rider or None
+        Single designs.
+    names : sequence of str
+        The k parameters that change; those of the rider may be among them.
+    shifts : array, shape (n, k)
+        What is added, SI.
+    """
 
     def changes(record: Bicycle | Rider) -> dict[str, Array]:
         own = record.values()

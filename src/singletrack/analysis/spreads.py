@@ -78,18 +78,40 @@ class CriticalSpeedUncertainty:
 
 
 def chunks(model: LinearModel) -> list[LinearModel]:
-    """Return a batch in pieces that keep temporary arrays small."""
+    """Return a batch in pieces that keep temporary arrays small.
+
+    Parameters
+    ----------
+    model : LinearModel
+        Of a batch (n,).
+    """
     whole = whole_batch(model, model.shape[0])
     return [whole[i : i + _CHUNK] for i in range(0, model.shape[0], _CHUNK)]
 
 
 def whole_batch(model: LinearModel, count: int) -> LinearModel:
-    """Return a batch of n designs in full: a matrix that depends on no uncertain parameter comes without the batch."""
+    """Return a batch of n designs in full: a matrix that depends on no uncertain parameter comes without the batch.
+
+    Parameters
+    ----------
+    model : LinearModel
+        Matrices of shape (m, m) or (n, m, m).
+    count : int
+        The number n.
+    """
     return model.broadcast_to((count,))
 
 
 def covariance_root(covariance: np.ndarray) -> np.ndarray:
-    """Return R with R R' = covariance, its columns along principal directions of the scaled parameters."""
+    """Return R with R R' = covariance, its columns along principal directions of the scaled parameters.
+
+    Shape (k, k).
+
+    Parameters
+    ----------
+    covariance : array, shape (k, k)
+        Symmetric, without negative eigenvalues.
+    """
     scale = np.sqrt(np.diag(covariance))
     safe = np.where(scale > 0, scale, 1.0)
     values, vectors = np.linalg.eigh(covariance / np.outer(safe, safe))
@@ -100,7 +122,15 @@ def covariance_root(covariance: np.ndarray) -> np.ndarray:
 def parameter_covariance(
     bicycle: Bicycle, rider: Rider | None, covariance: tuple[Sequence[str], Array] | None
 ) -> tuple[tuple[str, ...], np.ndarray]:
-    """Return the uncertain parameters and their covariance: as given, else independent standard deviations."""
+    """Return the uncertain parameters and their covariance: as given, else independent standard deviations.
+
+    Parameters
+    ----------
+    bicycle, rider : Bicycle, Rider or None
+        Whose standard deviations are taken where no covariance is given.
+    covariance : pair, optional
+        Names of k parameters, and their covariance, shape (k, k), SI.
+    """
     deviations: dict[str, float] = {}
     for record in (bicycle, rider):
         if record is not None:

@@ -23,7 +23,14 @@ def vector(*components: Array) -> Array:
 
 
 def stack(arrays: Sequence[Array], axis: int) -> Array:
-    """Stack arrays of any broadcastable shapes along a new axis, counted from the end (-1: last)."""
+    """Stack arrays of any broadcastable shapes along a new axis, counted from the end (-1: last).
+
+    Parameters
+    ----------
+    arrays : sequence of array, shape (...)
+    axis : int
+        Where the new axis stands in the result: -1 for the last.
+    """
     if is_jax(*arrays):
         xp, same_kind = as_arrays(*arrays)
         return xp.stack(xp.broadcast_arrays(*same_kind), axis=axis)
@@ -70,7 +77,13 @@ def dot(a: Array, b: Array) -> Array:
 
 
 def matvec(matrix: Array, vec: Array) -> Array:
-    """Return matrices (..., m, 3) times vectors (..., 3), with broadcasting."""
+    """Return matrices (..., m, 3) times vectors (..., 3), with broadcasting.
+
+    Parameters
+    ----------
+    matrix : array, shape (..., m, 3)
+    vec : array, shape (..., 3)
+    """
     x, y, z = vec[..., 0:1], vec[..., 1:2], vec[..., 2:3]
     return matrix[..., :, 0] * x + matrix[..., :, 1] * y + matrix[..., :, 2] * z
 
@@ -82,7 +95,13 @@ def unit_vector(vec: Array) -> Array:
 
 
 def skew(vec: Array) -> Array:
-    """Return the matrices (..., 3, 3) with ``skew(a) b = a x b``."""
+    """Return the matrices (..., 3, 3) with ``skew(a) b = a x b``.
+
+    Parameters
+    ----------
+    vec : array, shape (..., 3)
+        The vector a.
+    """
     x, y, z = vec[..., 0], vec[..., 1], vec[..., 2]
     zero = 0.0 * x
     xp = namespace(vec)

@@ -67,6 +67,11 @@ def fit(bicycle: Bicycle, rider: Rider, elbow: Array = 150 * pi / 180) -> Rider:
 def elbow_angle(bicycle: Bicycle, rider: Rider) -> Array:
     """Return the angle (...) in rad between upper and lower arm of a rider on a bicycle.
 
+    Parameters
+    ----------
+    bicycle : Bicycle
+    rider : Rider
+
     Examples
     --------
     >>> from math import degrees
@@ -84,6 +89,13 @@ def fitted(bicycle: Bicycle, rider: Rider, elbow: Array) -> tuple[Rider, tuple[F
     """Return the rider of :func:`fit`, with the faults of designs of a batch that cannot be fitted.
 
     Their lean is that which comes nearest.
+
+    Parameters
+    ----------
+    bicycle : Bicycle
+    rider : Rider
+    elbow : array, shape (...)
+        In rad.
     """
     require_geometry(bicycle)
     hip, shoulders, grip = _places(bicycle, rider)

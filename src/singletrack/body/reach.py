@@ -25,6 +25,15 @@ _LIMBS = {
 def reach(points: Skeleton, rider: Rider) -> dict[str, Array]:
     """Return for ``arm`` and ``leg`` the distance that is spanned as a fraction of the limb's length, shape (...).
 
+    Parameters
+    ----------
+    points : Skeleton
+        The seated rider's joints.
+    rider : Rider
+        Whose limbs' lengths are compared with.
+
+    Examples
+    --------
     >>> from singletrack import load_bicycle, load_rider
     >>> bicycle, rider = load_bicycle("stratos"), load_rider("rider-a")
     >>> round(float(reach(skeleton(bicycle, rider), rider)["arm"]), 3)

@@ -6,9 +6,10 @@ from dataclasses import dataclass
 from math import pi
 from typing import TYPE_CHECKING, Any
 
-from singletrack.arrays import Array, as_arrays, cross, dot, is_concrete, namespace, stack, unit_vector, vector
+from singletrack.arrays import Array, as_arrays, is_concrete, namespace, stack, vector
 from singletrack.arrays.faults import Fault, refuse_single
-from singletrack.errors import InputError, PostureError
+from singletrack.body.limbs import elbow_aside, other_leg, two_link_joint
+from singletrack.errors import InputError
 
 if TYPE_CHECKING:
     from singletrack.parameters import Bicycle, Rider
@@ -74,8 +75,14 @@ class Skeleton:
         return self.points[..., number - 1, :]
 
     def elbow_axis(self, side: str) -> Array:
-        """Return the unit normal (..., 3) to the plane of the ``right`` or ``left`` arm, towards the right.
+        """Return the unit normal (..., 3) to the plane of an arm, towards the right.
 
+        Parameters
+        ----------
+        side : {"right", "left"}
+
+        Examples
+        --------
         >>> from singletrack import load_bicycle, load_rider
         >>> skeleton(load_bicycle("stratos"), load_rider("rider-a")).elbow_axis("left").tolist()
         [0.0, 1.0, 0.0]
@@ -119,7 +126,12 @@ def skeleton(bicycle: Bicycle, rider: Rider) -> Skeleton:
 
 
 def require_geometry(bicycle: Bicycle) -> None:
-    """Raise InputError if a bicycle has no frame geometry, with the names that are missing."""
+    """Raise InputError if a bicycle has no frame geometry, with the names that are missing.
+
+    Parameters
+    ----------
+    bicycle : Bicycle
+    """
     missing = bicycle.missing_geometry()
     if missing:
         raise InputError(
@@ -129,7 +141,15 @@ def require_geometry(bicycle: Bicycle) -> None:
 
 
 def frame_points(bicycle: Bicycle) -> dict[int, Array]:
-    """Return points 1 to 12 and 16: wheels, frame, stem top."""
+    """Return points 1 to 12 and 16: wheels, frame, stem top.
+
+    By number, each of shape (..., 3), in m, in the bicycle's frame.
+
+    Parameters
+    ----------
+    bicycle : Bicycle
+        With its frame geometry.
+    """
     values = {name: value for name, value in bicycle.values().items() if "mass" not in name and "inertia" not in name}
     xp, arrays = as_arrays(*values.values())
     b: dict[str, Any] = dict(zip(values, arrays, strict=True))
@@ -140,7 +160,7 @@ def frame_points(bicycle: Bicycle) -> dict[int, Array]:
     p: dict[int, Array] = {1: vector(0.0, 0.0, 0.0), 2: vector(0.0, 0.0, -rear)}
     p[3], p[4] = (p[2] + vector(0.0, side * b["rear_hub_width"] / 2, 0.0) for side in (1, -1))
     drop = rear - b["bottom_bracket_height"]
-    p[5] = vector(_other_leg(xp, b["chain_stay_length"], drop), 0.0, -b["bottom_bracket_height"])
+    p[5] = vector(other_leg(xp, b["chain_stay_length"], drop), 0.0, -b["bottom_bracket_height"])
     p[6] = vector(b["wheel_base"], 0.0, 0.0)
     p[7] = p[6] + vector(0.0, 0.0, -front)
     p[8], p[9] = (p[7] + vector(0.0, side * b["front_hub_width"] / 2, 0.0) for side in (1, -1))
@@ -148,7 +168,7 @@ def frame_points(bicycle: Bicycle) -> dict[int, Array]:
     p[10] = p[5] + b["seat_tube_length"][..., None] * up_seat_tube
     # The head tube angle is 90 deg minus the steer axis tilt: its cosine is the tilt's sine.
     offset = front * sin - b["trail"] * cos
-    along = _other_leg(xp, b["fork_length"], offset)
+    along = other_leg(xp, b["fork_length"], offset)
     p[11] = p[7] + vector(-offset * cos - along * sin, 0.0, offset * sin - along * cos)
     p[12] = vector(p[11][..., 0] - (p[11][..., 2] - p[10][..., 2]) * sin / cos, 0.0, p[10][..., 2])
     p[13] = p[10] + b["seat_post_length"][..., None] * up_seat_tube
@@ -156,12 +176,6 @@ def frame_points(bicycle: Bicycle) -> dict[int, Array]:
     # Still in the middle: how far apart the grips are may be the rider's matter.
     p[19] = p[16] + vector(-b["handlebar_length"], 0.0, b.get("handlebar_drop", 0.0))
     return p
-
-
-def _other_leg(xp: Any, hypotenuse: Array, leg: Array) -> Array:
-    """Return the other leg of a right triangle, NaN where there is none."""
-    square = hypotenuse**2 - leg**2
-    return xp.sqrt(xp.where(xp.real(square) < 0, xp.nan, square) if is_concrete(square) else square)
 
 
 def _rider_points(
@@ -180,7 +194,7 @@ def _rider_points(
     p[15] = frame[13] + torso[..., None] * up_torso
     grip = frame[19]
     bracket, hip = frame[5], frame[13]
-    p[14], leg = _two_link_joint(hip, bracket, rider.upper_leg_length, rider.lower_leg_length, 1.0, "leg")
+    p[14], leg = two_link_joint(hip, bracket, rider.upper_leg_length, rider.lower_leg_length, 1.0, "leg")
     right_shoulder, left_shoulder = (vector(0.0, side * shoulders / 2, 0.0) for side in (1, -1))
     right_hip, left_hip = (vector(0.0, side * hips / 2, 0.0) for side in (1, -1))
     right_end, left_end = right_shoulder, left_shoulder
@@ -192,77 +206,16 @@ def _rider_points(
     p[21], p[22] = p[15] + right_shoulder, p[15] + left_shoulder
     axis = None
     if bicycle.handlebar_width is None and rider.elbow_drop_angle is None:
-        elbow, arm = _two_link_joint(p[15], grip, rider.upper_arm_length, rider.lower_arm_length, -1.0, "arm")
+        elbow, arm = two_link_joint(p[15], grip, rider.upper_arm_length, rider.lower_arm_length, -1.0, "arm")
         p[23], p[24] = elbow + right_shoulder, elbow + left_shoulder
     else:
-        p[23], axis, arm = _elbow_aside(p[21], p[19], rider)
+        p[23], axis, arm = elbow_aside(p[21], p[19], rider)
         p[24] = p[23] * vector(1.0, -1.0, 1.0)
     p[25] = p[15] + head[..., None] * up_torso
     p[26], p[27] = bracket + right_hip, bracket + left_hip
     p[28], p[29] = p[14] + right_hip, p[14] + left_hip
     p[30], p[31] = hip + right_hip, hip + left_hip
     return p, axis, [fault for fault in (*frame_faults(frame, bicycle), *leg, *arm) if is_concrete(fault.bad)]
-
-
-def _two_link_joint(
-    start: Array, end: Array, first: Array, second: Array, bend: float, limb: str
-) -> tuple[Array, list[Fault]]:
-    """Return the joint (..., 3) of a limb of two links in the x-z plane, bent to one side, and where it fails."""
-    across = end - start
-    xp, (dx, dz) = as_arrays(across[..., 0], across[..., 2])
-    distance = xp.sqrt(dx**2 + dz**2)
-    along, aside, faults = _two_links(distance, first, second, limb)
-    aside = bend * aside
-    joint = start + vector((along * dx + aside * dz) / distance, 0.0, (along * dz - aside * dx) / distance)
-    return joint, faults
-
-
-def _elbow_aside(shoulder: Array, grip: Array, rider: Rider) -> tuple[Array, Array, list[Fault]]:
-    """Return the right elbow and its axis (..., 3) where the arm may leave the plane x-z, and where it fails.
-
-    The elbow lies on a circle about the line from shoulder to grip: hanging down, in the vertical plane through the
-    line, or turned outwards from there as the elbow drop angle says.
-    """
-    line = grip - shoulder
-    xp, (line,) = as_arrays(line)
-    distance = xp.sqrt(dot(line, line))
-    along, aside, faults = _two_links(distance, rider.upper_arm_length, rider.lower_arm_length, "arm")
-    ahead = line / distance[..., None]
-    forward = xp.where(xp.real(ahead[..., 0]) < 0, -1.0, 1.0)
-    out = unit_vector(vector(-forward * ahead[..., 1], forward * ahead[..., 0], 0.0))
-    down = cross(ahead, out)
-    if rider.elbow_drop_angle is not None:
-        _, (drop,) = as_arrays(rider.elbow_drop_angle)
-        sin, cos = xp.sin(drop)[..., None], xp.cos(drop)[..., None]
-        down, out = sin * down + cos * out, sin * out - cos * down
-    return shoulder + along[..., None] * ahead + aside[..., None] * down, out, faults
-
-
-def _two_links(distance: Array, first: Array, second: Array, limb: str) -> tuple[Array, Array, list[Fault]]:
-    """Return how far along a distance the joint of two links lies, and how far aside, and where they do not reach."""
-    xp, (distance, first, second) = as_arrays(distance, first, second)
-    # No angles, so that it is cheap and analytic.
-    along = (distance**2 + first**2 - second**2) / (2 * distance)
-    aside = _other_leg(xp, first, along)
-    distance, first, second = (xp.real(length) for length in (distance, first, second))
-    ends, names = _LIMBS[limb]
-    found = {"distance": distance, "reach": first + second, "least": xp.abs(first - second)}
-    text = f"the {ends} distance is {{distance:.4f}} m, but the {limb} ({' + '.join(names)}) "
-    too_far, too_near = distance > first + second, distance < xp.abs(first - second)
-    return (
-        along,
-        aside,
-        [
-            Fault(too_far, text + "reaches only {reach:.4f} m", found, PostureError, names, "within reach"),
-            Fault(too_near, text + "cannot fold below {least:.4f} m", found, PostureError, names, "within reach"),
-        ],
-    )
-
-
-_LIMBS = {
-    "arm": ("shoulder-grip", ("upper_arm_length", "lower_arm_length")),
-    "leg": ("hip-bracket", ("upper_leg_length", "lower_leg_length")),
-}
 
 
 def frame_faults(frame: dict[int, Array], bicycle: Bicycle) -> list[Fault]:

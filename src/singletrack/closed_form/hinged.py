@@ -39,7 +39,13 @@ class Hinge(NamedTuple):
     z: Array
 
     def lateral(self, x: Array, z: Array) -> Array:
-        """Return how far a point of what it carries moves sideways, per unit angle."""
+        """Return how far a point of what it carries moves sideways, per unit angle.
+
+        Parameters
+        ----------
+        x, z : array, shape (...)
+            The point, in m, in the bicycle's frame.
+        """
         return self.az * (x - self.x) - self.ax * (z - self.z)
 
 
@@ -78,7 +84,12 @@ class Moving(NamedTuple):
 
 
 def plane_hinges(bicycle: Bicycle) -> dict[str, Hinge]:
-    """Return steer and soft hinges by name, the steer first."""
+    """Return steer and soft hinges by name, the steer first.
+
+    Parameters
+    ----------
+    bicycle : Bicycle
+    """
     xp, (tilt,) = as_arrays(bicycle.steer_axis_tilt)
     reach = bicycle.wheel_base + bicycle.trail
     found = {"steer": Hinge(xp.sin(tilt), xp.cos(tilt), reach, 0.0 * reach)}
@@ -120,7 +131,16 @@ def moving_bodies(bicycle: Bicycle, rider: Rider | None, options: Options | str,
 
 
 def bicycle_bodies(bicycle: Bicycle, hinges: dict[str, Hinge], names: tuple[str, ...]) -> Bodies:
-    """Return the bicycle's four bodies and how the freedoms named move them."""
+    """Return the bicycle's four bodies and how the freedoms named move them.
+
+    Parameters
+    ----------
+    bicycle : Bicycle
+    hinges : dict
+        Steer and soft hinges, of :func:`plane_hinges`.
+    names : tuple of str
+        The freedoms, the steer first.
+    """
     masses, centres, inertias, rotations, displacements = [], [], [], [], []
     sinking: dict[tuple[str, str], Array] = {}
     for body in _BODIES:
@@ -162,7 +182,15 @@ def _solid(bicycle: Bicycle, body: str) -> tuple[Array, Array, Array, Array]:
 
 
 def rider_bodies(bodies: SlavedBodies, names: tuple[str, ...]) -> Bodies:
-    """Return the rider's bodies with still columns for the freedoms that do not move them."""
+    """Return the rider's bodies with still columns for the freedoms that do not move them.
+
+    Parameters
+    ----------
+    bodies : SlavedBodies
+        The rider's, which move with the steer and with their own joints.
+    names : tuple of str
+        The model's freedoms, the steer first.
+    """
     count = bodies.displacement.shape[-3]
     still = 0.0 * bodies.displacement[..., 0, :, :]
     more = [still] * (len(names) - count)
@@ -185,6 +213,13 @@ def products(bodies: Bodies, mu: list[Array]) -> tuple[Array, Array, Array, Arra
     """Return products of motions (..., f + 2, f + 2), lateral momenta (..., f + 1), moments of mass and sinking.
 
     Motions are those of a unit rate of lean, of each freedom (which takes the frame along), and of yaw.
+
+    Parameters
+    ----------
+    bodies : Bodies
+        All of them.
+    mu : list of array, shape (...)
+        Yaw per unit of each freedom with the wheels' contacts at rest.
     """
     ex, ez = vector(1.0, 0.0, 0.0), vector(0.0, 0.0, 1.0)
     lean, yaw = cross(ex, bodies.centre), cross(ez, bodies.centre)
@@ -210,7 +245,18 @@ def products(bodies: Bodies, mu: list[Array]) -> tuple[Array, Array, Array, Arra
 def wheel_spins(
     bicycle: Bicycle, hinges: dict[str, Hinge], names: tuple[str, ...], mu: list[Array]
 ) -> list[tuple[Array, Array]]:
-    """Return for each wheel its angular momentum over the speed, and its turns (..., 1 + f, 3), lean first."""
+    """Return for each wheel its angular momentum over the speed, and its turns (..., 1 + f, 3), lean first.
+
+    Parameters
+    ----------
+    bicycle : Bicycle
+    hinges : dict
+        Steer and soft hinges by name.
+    names : tuple of str
+        The freedoms, the steer first.
+    mu : list of array, shape (...)
+        Yaw per unit of each freedom.
+    """
     found = []
     for wheel in ("rear_wheel", "front_wheel"):
         xp, (inertia, radius) = as_arrays(getattr(bicycle, f"{wheel}_inertia_yy"), getattr(bicycle, f"{wheel}_radius"))
@@ -223,7 +269,12 @@ def wheel_spins(
 
 
 def total(values: list[Array]) -> Array:
-    """Return the sum of arrays that broadcast."""
+    """Return the sum of arrays that broadcast.
+
+    Parameters
+    ----------
+    values : list of array, shape (...)
+    """
     whole = values[0]
     for value in values[1:]:
         whole = whole + value

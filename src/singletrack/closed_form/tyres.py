@@ -152,7 +152,13 @@ class TyreModel:
                 A[:, n : 2 * n + 2, :n] += contact[:, None] * by_q
 
     def eigenvalues(self, speeds: Array) -> Array:
-        """Return the eigenvalues (k, m), 1/s, sorted by real, then imaginary part."""
+        """Return the eigenvalues (k, m), 1/s, sorted by real, then imaginary part.
+
+        Parameters
+        ----------
+        speeds : array, shape (k,)
+            In m/s.
+        """
         return np.sort_complex(np.linalg.eigvals(self.state_matrix(speeds)))
 
 

@@ -35,7 +35,13 @@ class _System(NamedTuple):
 
 
 def matrix2(a11: Array, a12: Array, a21: Array, a22: Array) -> Array:
-    """Return matrices (..., 2, 2) of their entries (...)."""
+    """Return matrices (..., 2, 2) of their entries (...).
+
+    Parameters
+    ----------
+    a11, a12, a21, a22 : array, shape (...)
+        Row, then column.
+    """
     return stack([vector(a11, a12), vector(a21, a22)], -2)
 
 

@@ -73,6 +73,11 @@ class LostMode:
 def state_polynomial(model: LinearModel) -> tuple[np.ndarray, np.ndarray]:
     """Return the state matrix of a single design as a polynomial in the speed, and its inputs.
 
+    Parameters
+    ----------
+    model : LinearModel
+        Of n freedoms and m inputs.
+
     Returns
     -------
     A : array, shape (3, 2 n, 2 n)
@@ -197,12 +202,18 @@ def _common_roots(A: np.ndarray, v: float, b: np.ndarray) -> Iterator[tuple[comp
         yield complex(values[k]), left[:, k].conj()
 
 
+#: Scaled speeds and eigenvalues are of order one; beyond this nothing is sought.
+_FAR = 1e12
+
+
 def _refine(A: np.ndarray, b: np.ndarray, v: float, root: complex, left: np.ndarray) -> tuple[float, complex] | None:
     """Return speed and eigenvalue with wᵀ (A - λ) = 0, wᵀ b = 0, by Newton's method, or None if there is none near."""
     size = len(b)
     w, b, start = left / np.linalg.norm(left), b / np.linalg.norm(b), left.conj() / np.linalg.norm(left)
     speed: complex = v
     for _ in range(30):
+        if not abs(speed) + abs(root) < _FAR:  # gone astray
+            return None
         matrix, slope = A[0] + speed * (A[1] + speed * A[2]), A[1] + 2 * speed * A[2]
         residual = np.concatenate([w @ matrix - root * w, [w @ b, w @ start - 1.0]])
         jacobian = np.zeros((size + 2, size + 2), dtype=complex)

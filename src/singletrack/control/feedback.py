@@ -87,6 +87,17 @@ def lqr_schedule(
 ) -> np.ndarray:
     """Return the gains (k, 2 n) of the best state feedback at speeds (k,), input = -gain state, by one input.
 
+    Parameters
+    ----------
+    model : LinearModel
+        A single design.
+    speeds : array, shape (k,)
+        In m/s.
+    input_name : str
+        The input that is fed back.
+    weights : Weights, optional
+        Of states and input in the cost; by default those of :class:`Weights`.
+
     Raises
     ------
     InputError

@@ -218,6 +218,11 @@ def _covariance(t: np.ndarray, y: np.ndarray, sigma: float, omega: float, left: 
 def combine_modes(found: Sequence[IdentifiedMode]) -> IdentifiedMode:
     """Return the mean of repetitions, weighted by their precision; its deviation at least what their scatter says.
 
+    Parameters
+    ----------
+    found : sequence of IdentifiedMode
+        One for each repetition.
+
     Raises
     ------
     InputError

@@ -77,6 +77,13 @@ def _assigned(values: np.ndarray, named: np.ndarray) -> np.ndarray:
 def distance_to_uncontrollability(system: StateSpace, input_name: str) -> float:
     """Return how far (A, b) of a single system is from a pair that is not controllable (2-norm, in its units).
 
+    Parameters
+    ----------
+    system : StateSpace
+        At one speed.
+    input_name : str
+        The one input that acts.
+
     Notes
     -----
     The least singular value of (A - s, b) over all complex s (Eising 1984, Systems and Control Letters 4:263-264), from
@@ -118,6 +125,13 @@ def distance_to_uncontrollability(system: StateSpace, input_name: str) -> float:
 
 def gramian(system: StateSpace, input_name: str) -> np.ndarray:
     """Return the controllability Gramian (N, N) of a single system by one input, stable or not.
+
+    Parameters
+    ----------
+    system : StateSpace
+        At one speed.
+    input_name : str
+        The one input that acts.
 
     Notes
     -----

@@ -40,7 +40,15 @@ def _autoregression(left: np.ndarray) -> np.ndarray:
 
 
 def autocorrelations(coefficients: np.ndarray, count: int) -> np.ndarray:
-    """Return the autocorrelations (count,) of an autoregressive process, from its impulse response."""
+    """Return the autocorrelations (count,) of an autoregressive process, from its impulse response.
+
+    Parameters
+    ----------
+    coefficients : array, shape (p,)
+        Of the process e[i] = sum of coefficients[k] e[i - 1 - k], and noise.
+    count : int
+        How many, from lag zero on.
+    """
     impulse = np.zeros(4 * count + 200)
     impulse[0] = 1.0
     weights = scipy.signal.lfilter([1.0], [1.0, *-coefficients], impulse)
@@ -54,6 +62,15 @@ def corrected_autoregression(left: np.ndarray, basis: np.ndarray) -> np.ndarray:
 
     The residuals of a fit look less correlated than the disturbance was. For each candidate the first correlation that
     residuals would show is compared with the one they do show, and the candidate moved until both agree.
+
+    Shape (p,), p the order of the process.
+
+    Parameters
+    ----------
+    left : array, shape (n,)
+        The residuals.
+    basis : array, shape (n, m)
+        Orthonormal columns that span what the fit can take out.
     """
     coefficients = _autoregression(left)
     if not coefficients.size:

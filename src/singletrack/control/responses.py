@@ -149,14 +149,38 @@ def _batch_dims(system: StateSpace, shape: tuple[int, ...]) -> list[str]:
 
 
 def step_response(system: StateSpace, time: Array, input_name: str, size: float = 1.0) -> xarray.Dataset:
-    """Return the response over times (k,) to an input that jumps from zero to a size (as :func:`response` gives it)."""
+    """Return the response over times (k,) to an input that jumps from zero to a size (as :func:`response` gives it).
+
+    Parameters
+    ----------
+    system : StateSpace
+        Of one design at one speed.
+    time : array, shape (k,)
+        In s, ascending from zero.
+    input_name : str
+        Which input jumps.
+    size : float
+        To what value, in the input's unit.
+    """
     inputs = np.zeros((len(np.atleast_1d(time)), len(system.inputs)))
     inputs[:, _place(system, input_name)] = size
     return response(system, time, inputs, hold="zero")
 
 
 def impulse_response(system: StateSpace, time: Array, input_name: str, size: float = 1.0) -> xarray.Dataset:
-    """Return the response of a single system over times (k,) to an impulse of a size in N m s (as :func:`response`)."""
+    """Return the response of a single system over times (k,) to an impulse of a size in N m s (as :func:`response`).
+
+    Parameters
+    ----------
+    system : StateSpace
+        Of one design at one speed.
+    time : array, shape (k,)
+        In s, ascending from zero.
+    input_name : str
+        Which input acts.
+    size : float
+        The integral of the input over time, N m s for a torque.
+    """
     return response(system, time, start=system.B[..., _place(system, input_name)] * size)
 
 
@@ -194,6 +218,13 @@ def save_mat(system: StateSpace, path: str | Path) -> None:
     """Write systems as a MAT-file (level 5): A, B, C, D of shapes (..., N, N) and so on, speed, names.
 
     Matlab keeps further dimensions last: they are moved there.
+
+    Parameters
+    ----------
+    system : StateSpace
+        Of any batch (...) of designs and speeds.
+    path : str or Path
+        Of the file; it is replaced as a whole.
 
     Raises
     ------

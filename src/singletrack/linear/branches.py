@@ -55,12 +55,24 @@ class Branches:
     block: np.ndarray
 
     def rows(self, which: np.ndarray) -> Branches:
-        """Return some intervals."""
+        """Return some intervals.
+
+        Parameters
+        ----------
+        which : array, shape (r,)
+            Indices, or a mask of all intervals.
+        """
         return Branches(*(getattr(self, one.name)[which] for one in fields(self)))
 
 
 def find_branches(p: Pencil) -> Branches:
-    """Return the intervals of all designs, in any order."""
+    """Return the intervals of all designs, in any order.
+
+    Parameters
+    ----------
+    p : Pencil
+        Of m designs.
+    """
     edges = len(EDGES) - 1
     design = np.repeat(np.arange(len(p)), edges)
     low, high = np.tile(EDGES[:-1], len(p)), np.tile(EDGES[1:], len(p))
@@ -222,7 +234,17 @@ def _placed(p: Pencil, b: Branches, v: np.ndarray) -> np.ndarray:
 
 
 def places(b: Branches, roots: np.ndarray, v: np.ndarray) -> np.ndarray:
-    """Return roots (r, N) at speeds (r,) in their places; a permutation, whatever the roots."""
+    """Return roots (r, N) at speeds (r,) in their places; a permutation, whatever the roots.
+
+    Parameters
+    ----------
+    b : Branches
+        The r intervals in which the speeds lie.
+    roots : array, shape (r, N)
+        In the pencil's units.
+    v : array, shape (r,)
+        In the pencil's units.
+    """
     t = (v - (b.low + b.high) / 2)[:, None]
     centre = b.centre[:, 0] + t * b.centre[:, 1] + t * t * b.centre[:, 2]
     outside = np.abs(roots[:, :, None] - centre[:, None, :]) - b.radius[:, None, :]

@@ -67,7 +67,13 @@ class CharacteristicPolynomial:
         )
 
     def rows(self, which: Any) -> CharacteristicPolynomial:
-        """Return the polynomials of some designs: an index or a mask of the first axis."""
+        """Return the polynomials of some designs: an index or a mask of the first axis.
+
+        Parameters
+        ----------
+        which : index or mask
+            Of the first axis of the batch.
+        """
         return CharacteristicPolynomial(*(a[which] for a in (self.a4, self.a3, self.a2, self.a1, self.a0)))
 
     def flat(self) -> tuple[CharacteristicPolynomial, tuple[int, ...]]:
@@ -80,6 +86,11 @@ class CharacteristicPolynomial:
 
 def characteristic_polynomial(model: LinearModel) -> CharacteristicPolynomial:
     """Return the characteristic polynomial of two freedoms without springs and dampers, up to a factor.
+
+    Parameters
+    ----------
+    model : LinearModel
+        Of lean and steer, any batch (...).
 
     Examples
     --------

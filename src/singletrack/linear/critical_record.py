@@ -66,7 +66,15 @@ class CriticalSpeeds:
 
     @classmethod
     def joined(cls, parts: Sequence[CriticalSpeeds], batch: tuple[int, ...]) -> CriticalSpeeds:
-        """Return designs (m,), cut into several records, as one of a batch (...)."""
+        """Return designs (m,), cut into several records, as one of a batch (...).
+
+        Parameters
+        ----------
+        parts : sequence of CriticalSpeeds
+            In the order of the designs.
+        batch : tuple of int
+            Shape of the batch; the product of its entries is m.
+        """
         if not parts:
             parts = [cls.empty()]
         arrays = {}

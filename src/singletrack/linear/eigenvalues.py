@@ -53,6 +53,13 @@ def eigenvalues(model: LinearModel, speeds: Array) -> Array:
     Roots of a pair are exact conjugates, real roots have an imaginary part of exactly zero. Designs of a batch that
     are faulty get NaN.
 
+    Parameters
+    ----------
+    model : LinearModel
+        Any number n of freedoms, any batch (...).
+    speeds : array_like, shape (k,) or ()
+        In m/s.
+
     Notes
     -----
     Two freedoms: roots of the characteristic quartic (:mod:`singletrack.linear.quartic`), whose coefficients are

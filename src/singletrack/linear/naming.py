@@ -29,7 +29,17 @@ _RIDING = np.array([3.0, 4.0, 6.0])
 
 
 def follow(p: Pencil, v: np.ndarray, roots: np.ndarray) -> np.ndarray:
-    """Put roots (m, k, 2 n) at speeds (m, k), all in units of the pencil, into the columns of their modes."""
+    """Put roots (m, k, 2 n) at speeds (m, k), all in units of the pencil, into the columns of their modes.
+
+    Parameters
+    ----------
+    p : Pencil
+        Of m designs.
+    v : array, shape (m, k)
+        Ascending speeds.
+    roots : array, shape (m, k, 2 n)
+        In any order.
+    """
     path = _Path.of(p)
     columns, above, below = path.columns()
     named = np.empty_like(roots)
@@ -190,24 +200,30 @@ def _columns_by_parts(roots: np.ndarray, part: np.ndarray) -> tuple[np.ndarray, 
     Roots are in the order of :func:`in_order`. One coordinate after the other takes its roots, the clearest first.
     """
     designs, count = roots.shape
-    further = part[..., 2:]
+    further = part[..., 2:] - part[..., 1:2]  # a root that is mostly steer is castering
     columns = np.full((designs, count), -1)
     row, upper = np.arange(designs), roots.imag > 0
     waiting = np.ones((designs, further.shape[-1]), dtype=bool)
     clear = np.full(designs, np.inf)
     for _ in range(further.shape[-1]):
         free = columns < 0
-        own = np.where(free[:, :, None] & waiting[:, None], further, -1.0)
-        pairs = np.where(upper[:, :, None], own, -1.0)
-        reals = np.sort(np.where(roots.imag[:, :, None] == 0, own, -1.0), axis=1)
-        best_pair, best_reals = pairs.max(axis=1), np.where(reals[:, -2] >= 0, reals[:, -2:].mean(axis=1), -1.0)
-        which = np.argmax(np.maximum(best_pair, best_reals), axis=-1)
+        own = np.where(free[:, :, None] & waiting[:, None], further, -9.0)
+        whole = upper & free & np.roll(free, -1, axis=-1)
+        pairs = np.where(whole[:, :, None], own, -9.0)
+        reals = np.sort(np.where(roots.imag[:, :, None] == 0, own, -9.0), axis=1)
+        best_pair, best_reals = pairs.max(axis=1), reals[:, -2:].mean(axis=1)
+        # One of its roots has met a root of another mode: half of a pair that is less its own than the real one.
+        best_mixed = np.where(reals[:, -1] > best_pair, (reals[:, -1] + best_pair) / 2, -9.0)
+        which = np.argmax(np.maximum(np.maximum(best_pair, best_reals), best_mixed), axis=-1)
         first = np.argmax(pairs[row, :, which], axis=-1)
-        real = np.where(roots.imag == 0, own[row, :, which], -2.0)
+        real = np.where(roots.imag == 0, own[row, :, which], -99.0)
         two_reals = np.sort(np.argsort(real, axis=-1)[:, -2:], axis=-1)
         as_pair = best_pair[row, which] >= best_reals[row, which]
         pair = np.stack([first, np.minimum(first + 1, count - 1)], axis=-1)
         chosen = np.where(as_pair[:, None], pair, two_reals)
+        better = np.maximum(best_pair, best_reals)[row, which]
+        mixed = np.stack([np.argmax(real, axis=-1), pair[:, 1]], axis=-1)
+        chosen = np.where((best_mixed[row, which] > better)[:, None], mixed, chosen)
         columns[row[:, None], chosen] = _FURTHER + 2 * which[:, None] + [0, 1]
         waiting[row, which] = False
         others = np.where(columns < 0, further[row, :, which], 0.0).max(axis=-1)
@@ -226,7 +242,9 @@ def _columns_of_four(roots: np.ndarray, columns: np.ndarray) -> np.ndarray:
 def _last_four(roots: np.ndarray) -> np.ndarray:
     """Return the columns of the four roots (m, 4) that lean and steer have: real ones first, ascending, then pairs."""
     real = (roots.imag == 0).sum(axis=-1)
-    size = np.where(roots.imag == 0, np.abs(roots), np.inf)
+    # Half of a pair, of which a further coordinate has the other half, counts as real.
+    half = (roots.imag != 0) & ~(roots[:, :, None] == roots[:, None, :].conj()).any(axis=-1)
+    size = np.where(half, 0.0, np.where(roots.imag == 0, np.abs(roots), np.inf))
     capsize = np.argmin(size, axis=-1)
     castering = np.where(capsize == 0, 1, 0)
     place = np.arange(4)

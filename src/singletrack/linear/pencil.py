@@ -62,11 +62,23 @@ class Pencil:
         return int(self.C1.shape[-1])
 
     def rows(self, which: np.ndarray | slice) -> Pencil:
-        """Return the pencils of some designs, in any order, also several times."""
+        """Return the pencils of some designs, in any order, also several times.
+
+        Parameters
+        ----------
+        which : array or slice
+            Indices of designs, or a mask.
+        """
         return Pencil(*(getattr(self, name)[which] for name in self.__dataclass_fields__))
 
     def state(self, v: np.ndarray) -> np.ndarray:
-        """Return the state matrices (m, k, 2 n, 2 n) at speeds (m, k): x' = A x of coordinates and rates."""
+        """Return the state matrices (m, k, 2 n, 2 n) at speeds (m, k): x' = A x of coordinates and rates.
+
+        Parameters
+        ----------
+        v : array, shape (m, k)
+            Speeds, in the pencil's units.
+        """
         n, at = self.freedoms, v[..., None, None]
         result = np.zeros((*v.shape, 2 * n, 2 * n))
         result[..., :n, n:] = np.eye(n)
@@ -89,7 +101,13 @@ def mass_units(M: np.ndarray) -> np.ndarray:
 
 
 def pencil(model: LinearModel) -> tuple[Pencil, tuple[int, ...]]:
-    """Return the pencils of all designs on one axis, and the shape (...) of the batch."""
+    """Return the pencils of all designs on one axis, and the shape (...) of the batch.
+
+    Parameters
+    ----------
+    model : LinearModel
+        Any batch (...), any number of freedoms.
+    """
     batch, n = model.shape, model.freedoms
     whole = model.broadcast_to(batch)
     with np.errstate(all="ignore"):  # numbers out of range are not told

@@ -40,7 +40,13 @@ class Quadratics:
 
 
 def solve_quadratics(polynomial: CharacteristicPolynomial) -> Quadratics:
-    """Return critical speeds and stable ranges, for all speeds above zero."""
+    """Return critical speeds and stable ranges, for all speeds above zero.
+
+    Parameters
+    ----------
+    polynomial : CharacteristicPolynomial
+        Of designs (m,).
+    """
     p, speed = _in_own_units(polynomial)
     a4, a3, a2, a1, a0 = (np.asarray(a) for a in (p.a4, p.a3, p.a2, p.a1, p.a0))
     shape = np.broadcast_shapes(*(a.shape[:-1] for a in (a4, a2, a1, a0)))

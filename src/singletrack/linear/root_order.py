@@ -37,6 +37,17 @@ def arrange(roots: np.ndarray, count: np.ndarray, descending: np.ndarray) -> np.
     Right at a meeting rounding may show two nearly equal real roots as a pair or the reverse; then the pair nearest to
     the real axis counts as real, or the two nearest real roots as a pair. Nothing is lost: the result is a permutation.
 
+    Parameters
+    ----------
+    roots : array, shape (..., 4)
+        Pairs as exact conjugates.
+    count : array, shape (...)
+        0, 2 or 4.
+    descending : array of bool, shape (...)
+        Whether the larger of the first two goes first, else the smaller.
+
+    Examples
+    --------
     >>> arrange(np.array([0.5 - 2j, 0.5 + 2j, -1.0, 3.0]), np.array(2), np.array(False)).tolist()
     [(-1+0j), (3+0j), (0.5+2j), (0.5-2j)]
     """

@@ -154,6 +154,11 @@ class LinearModel:
     def from_dict(cls, data: Mapping[str, Any]) -> Self:
         """Return the model that :meth:`to_dict` wrote; ``C0, S0, B``, the names and gravity (9.81) may be left out.
 
+        Parameters
+        ----------
+        data : mapping
+            Matrices as lists, names as lists of str, by the names of the attributes.
+
         Raises
         ------
         InputError
@@ -187,6 +192,11 @@ class LinearModel:
 
 def concatenate(models: Sequence[LinearModel]) -> LinearModel:
     """Return batches of designs (k,) one after the other, as one batch; all of the same coordinates and inputs.
+
+    Parameters
+    ----------
+    models : sequence of LinearModel
+        Each a batch of shape (k,), k its own.
 
     Raises
     ------

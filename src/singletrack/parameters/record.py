@@ -85,7 +85,12 @@ class Record:
         return dict(_descriptions(cls))
 
     def values(self) -> dict[str, Array]:
-        """Return the parameters that are present, by name."""
+        """Return the parameters that are present, by name.
+
+        Each of a shape (...) of its own that broadcasts with the others, SI.
+
+        Each of a shape (...) of its own that broadcasts with the others, SI.
+        """
         found = {name: getattr(self, name) for name in _descriptions(type(self))}
         return {name: value for name, value in found.items() if value is not None}
 

@@ -51,6 +51,15 @@ class SegmentShape:
 def segment_shape(name: str, values: object) -> SegmentShape:
     """Return the shape that a file gives for a segment.
 
+    Parameters
+    ----------
+    name : str
+        Of the segment, for messages.
+    values : mapping
+        What the file says: centre and radii of gyration as fractions of the segment's length.
+
+    Examples
+    --------
     >>> segment_shape("torso", {"centre": 0.4, "gyration_along": 0.2, "gyration_sideways": 0.3, "gyration_across": 0.3})
     SegmentShape(centre=0.4, gyration_along=0.2, gyration_sideways=0.3, gyration_across=0.3)
     """

@@ -29,6 +29,16 @@ def solver_of(
     """Return a function from right sides (rows, p, N) to rates (joints that are not free, p, N), and faults.
 
     Rates are NaN in designs whose loops cannot move.
+
+    Parameters
+    ----------
+    xp : namespace
+    posture : Posture
+    loops : Loops
+    spin : array, shape (3, n, N)
+        Axes of the joints, as in :class:`singletrack.posture.twists.Motion`.
+    shape : tuple of int
+        Of the batch of N designs.
     """
     own = posture.tree.points.own
     if own is not None and not posture.tree.angles.index:

@@ -43,7 +43,14 @@ class Loops:
     far: Array | None
 
     def matrix(self, xp: Any, spin: Array, joints: np.ndarray) -> Array:
-        """Return the rates (rows, k, N) of all conditions for unit rates of some joints (k,)."""
+        """Return the rates (rows, k, N) of all conditions for unit rates of some joints.
+
+        Parameters
+        ----------
+        xp : namespace
+        spin : array, shape (3, n, N)
+        joints : array of int, shape (k,)
+        """
         rows = []
         if self.columns is not None:
             ends = self.tree.points
@@ -56,7 +63,12 @@ class Loops:
         return rows[0] if len(rows) == 1 else xp.concat(rows, axis=0)
 
     def steering(self, xp: Any) -> Array:
-        """Return the rates (rows, N) of the handlebar's side of all conditions for a unit rate of steer."""
+        """Return the rates (rows, N) of the handlebar's side of all conditions for a unit rate of steer.
+
+        Parameters
+        ----------
+        xp : namespace
+        """
         rows = []
         if self.points is not None:
             moved = self.turned_bar()
@@ -70,7 +82,13 @@ class Loops:
         return cross3(self.axis[:, None], self.points - self.foot[:, None]) * self.tree.points.bar[:, None]
 
     def bending(self, xp: Any, motion: Motion) -> Array:
-        """Return the second derivatives (rows, p, N) of all conditions that the joints' rates alone cause."""
+        """Return the second derivatives (rows, p, N) of all conditions that the joints' rates alone cause.
+
+        Parameters
+        ----------
+        xp : namespace
+        motion : Motion
+        """
         rows = []
         if self.columns is not None:
             parting = self.bending_points(motion)
@@ -80,7 +98,12 @@ class Loops:
         return rows[0] if len(rows) == 1 else xp.concat(rows, axis=0)
 
     def bending_points(self, motion: Motion) -> Array:
-        """Return the second derivatives (3, L, p, N) by which points part."""
+        """Return the second derivatives (3, L, p, N) by which points part.
+
+        Parameters
+        ----------
+        motion : Motion
+        """
         ends, moved = self.tree.points, self.turned_bar()
         parting = turned(motion.turning[:, ends.chain], self.columns)
         parting = parting - self._steer_only(cross3(self.axis[:, None], moved))

@@ -86,7 +86,14 @@ def slaved_bodies(posture: Posture, bicycle: Bicycle) -> SlavedBodies:
 
 
 def carried_by_soft_frame(posture: Posture, bicycle: Bicycle) -> Posture:
-    """Return a posture in which the twist of a soft frame is one more free joint, that which carries the handlebar."""
+    """Return a posture in which the twist of a soft frame is one more free joint, that which carries the handlebar.
+
+    Parameters
+    ----------
+    posture : Posture
+    bicycle : Bicycle
+        Whose frame may be soft.
+    """
     hinge = next((hinge for hinge in soft_hinges(bicycle) if hinge.name == FRAME_TORSION), None)
     if hinge is None or all(loop.to != HANDLEBAR for loop in posture.loops):
         return posture

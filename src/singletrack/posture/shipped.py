@@ -39,6 +39,10 @@ _VARIANTS: dict[str, dict[tuple[str, str | None], str]] = {
 def load_posture(name_or_path: str | Path) -> Mechanism:
     """Load a mechanism: a shipped posture's name, or a file.
 
+    Parameters
+    ----------
+    name_or_path : str or path
+
     Raises
     ------
     InputError
@@ -68,6 +72,12 @@ def load_posture(name_or_path: str | Path) -> Mechanism:
 def is_posture(name_or_path: str | Path) -> bool:
     """Tell whether a name is a shipped posture's, or a file is a mechanism by what it says.
 
+    Parameters
+    ----------
+    name_or_path : str or path
+
+    Examples
+    --------
     >>> is_posture("upright"), is_posture("stratos")
     (True, False)
     """
@@ -83,6 +93,10 @@ def is_posture(name_or_path: str | Path) -> bool:
 
 def named_posture(found: str | Path | Mechanism) -> str | Mechanism:
     """Return a posture as options take it: a shipped name as it is, a file's mechanism, a mechanism as it is.
+
+    Parameters
+    ----------
+    found : str, path or Mechanism
 
     Raises
     ------
@@ -102,6 +116,10 @@ def named_posture(found: str | Path | Mechanism) -> str | Mechanism:
 
 def mechanism_of(options: Options) -> Mechanism:
     """Return the mechanism that options ask for.
+
+    Parameters
+    ----------
+    options : Options
 
     Raises
     ------
@@ -158,6 +176,12 @@ def _leaning(posture: str, shoulder: str | None, arms: str | None) -> Mechanism:
 def with_torso_lean(mechanism: Mechanism) -> Mechanism:
     """Return a mechanism with one more free hinge, along x at the hips, under all that is not a leg.
 
+    Parameters
+    ----------
+    mechanism : Mechanism
+
+    Examples
+    --------
     >>> with_torso_lean(load_posture("rigid")).segments["head"]
     'torso lean'
     """

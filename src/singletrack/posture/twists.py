@@ -58,27 +58,62 @@ class Motion:
     faults: tuple[Fault, ...] = ()
 
     def columns(self, points: Array) -> Array:
-        """Return c (3, k, n, N) of points (3, k, N), for all joints whether they carry them or not."""
+        """Return c (3, k, n, N) of points, for all joints whether they carry them or not.
+
+        Parameters
+        ----------
+        points : array, shape (3, k, N)
+        """
         return cross3(self.spin[:, None], points[:, :, None]) + self.twist[:, None]
 
     def first(self, carries: Array, points: Array) -> tuple[Array, Array]:
-        """Return rotation and displacement (3, k, f, N) of points (3, k, N), moved by the joints of rows (k, n)."""
+        """Return rotations and displacements (3, k, f, N) of points.
+
+        Parameters
+        ----------
+        carries : array, shape (k, n)
+            One where a joint moves a point.
+        points : array, shape (3, k, N)
+        """
         return self.spins(carries), along(self.columns(points) * carries[:, :, None], self.rates)
 
     def second(self, carries: Array, points: Array) -> Array:
-        """Return the second derivatives (3, k, p, N) of points (3, k, N)."""
+        """Return the second derivatives (3, k, p, N) of points.
+
+        Parameters
+        ----------
+        carries : array, shape (k, n)
+            One where a joint moves a point.
+        points : array, shape (3, k, N)
+        """
         columns = self.columns(points) * carries[:, :, None]
         return turned(self.turning[:, None], columns) + along(columns, self.bends)
 
     def spins(self, carries: Array) -> Array:
-        """Return the rotations (3, k, f, N) of bodies that the joints of rows (k, n) move."""
+        """Return the rotations (3, k, f, N) of bodies.
+
+        Parameters
+        ----------
+        carries : array, shape (k, n)
+            One where a joint moves a body.
+        """
         return summed(carries, self.spin[:, :, None] * self.rates)
 
 
 def motion_of(
     tree: Tree, shape: tuple[int, ...], spin: Array, twist: Array, rates: Array, faults: tuple[Fault, ...]
 ) -> Motion:
-    """Return the motion of joints with these rates (n, f, N), still without second derivatives of their angles."""
+    """Return the motion of joints with given rates, still without second derivatives of their angles.
+
+    Parameters
+    ----------
+    tree : Tree
+    shape : tuple of int
+        Of the batch of N designs.
+    spin, twist : array, shape (3, n, N)
+    rates : array, shape (n, f, N)
+    faults : tuple of Fault
+    """
     carried = summed(tree.halfway, spin[:, :, None] * rates), summed(tree.halfway, twist[:, :, None] * rates)
     i, j = tree.first, tree.second
     turning = carried[0][:, :, i] * rates[:, j] + carried[0][:, :, j] * rates[:, i]
@@ -86,37 +121,72 @@ def motion_of(
 
 
 def cross3(a: Array, b: Array) -> Array:
-    """Return cross products of arrays (3, ...)."""
+    """Return cross products, components first.
+
+    Parameters
+    ----------
+    a, b : array, shape (3, ...)
+    """
     parts = [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
     return stack(parts, -max(a.ndim, b.ndim))
 
 
 def dot3(a: Array, b: Array) -> Array:
-    """Return inner products of arrays (3, ...)."""
+    """Return inner products, components first.
+
+    Parameters
+    ----------
+    a, b : array, shape (3, ...)
+    """
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 
 
 def summed(rows: Array, values: Array) -> Array:
-    """Return sums of values (m, n, ..., N) over the joints of each row (k, n), shape (m, k, ..., N)."""
+    """Return sums (m, k, ..., N) of values over the joints of each row.
+
+    Parameters
+    ----------
+    rows : array, shape (k, n)
+    values : array, shape (m, n, ..., N)
+    """
     xp, (values,) = as_arrays(values)
     flat = xp.matmul(xp.asarray(rows, dtype=values.dtype), values.reshape(values.shape[0], rows.shape[1], -1))
     return flat.reshape(values.shape[0], rows.shape[0], *values.shape[2:])
 
 
 def along(columns: Array, rates: Array) -> Array:
-    """Return sums over the joints of columns (3, k, n, N) times rates (n, f, N), shape (3, k, f, N)."""
+    """Return sums over the joints of columns times rates, shape (3, k, f, N).
+
+    Parameters
+    ----------
+    columns : array, shape (3, k, n, N)
+    rates : array, shape (n, f, N)
+    """
     xp, (columns, rates) = as_arrays(columns, rates)
     return stack([xp.sum(columns * rates[:, i], axis=2) for i in range(rates.shape[1])], -2)
 
 
 def turned(turning: Array, columns: Array) -> Array:
-    """Return sums over the joints of turning (3, ..., n, p, N) x columns (3, ..., n, N), shape (3, ..., p, N)."""
+    """Return sums over the joints of turning x columns, shape (3, ..., p, N).
+
+    Parameters
+    ----------
+    turning : array, shape (3, ..., n, p, N)
+    columns : array, shape (3, ..., n, N)
+    """
     xp, (turning, columns) = as_arrays(turning, columns)
     return xp.sum(cross3(turning, columns[..., None, :]), axis=-3)
 
 
 def designs_last(arrays: list[Array], shape: tuple[int, ...]) -> tuple[Any, list[Array]]:
-    """Return the namespace and vectors (..., k, 3), broadcast to a batch's shape, as (3, k, N)."""
+    """Return the namespace and vectors, broadcast to a batch's shape, as (3, k, N).
+
+    Parameters
+    ----------
+    arrays : list of arrays, shape (..., k, 3)
+    shape : tuple of int
+        Of the batch of N designs.
+    """
     xp, same = as_arrays(*arrays)
     moved = []
     for array in same:

@@ -20,7 +20,15 @@ __all__ = ["angles_figure", "control_tables", "effort_figure"]
 
 
 def control_tables(found: ControlSummary, title: str) -> Group:
-    """Return what the inputs of a model can do, for reading."""
+    """Return what the inputs of a model can do, for reading.
+
+    Parameters
+    ----------
+    found : ControlSummary
+        What was computed.
+    title : str
+        Above the first table.
+    """
     lost = Table(title=f"{title}: where an input loses a mode", title_justify="left", title_style="bold")
     for heading in ("input", "speed (m/s)", "eigenvalue (1/s)", "mode"):
         lost.add_column(heading, justify="right" if "(" in heading else "left")
@@ -49,7 +57,15 @@ def _one_input(found: ControlSummary, name: str) -> Table:
 
 
 def angles_figure(found: ControlSummary, title: str) -> Figure:
-    """Return modal controllability over speed, axes for each input, as in figures 7 and 8 of the journal paper."""
+    """Return modal controllability over speed, axes for each input, as in figures 7 and 8 of the journal paper.
+
+    Parameters
+    ----------
+    found : ControlSummary
+        What was computed.
+    title : str
+        Of the figure.
+    """
     with style():
         figure = new_figure(3.4 * len(found.inputs), 3.2)
         figure.suptitle(title, x=0.01, ha="left", fontsize=10)
@@ -84,7 +100,15 @@ def _colour(mode: str) -> str:
 
 
 def effort_figure(efforts: dict[str, Effort], title: str) -> Figure:
-    """Return least energy and largest torque over speed, one curve for each label, where the input can do it."""
+    """Return least energy and largest torque over speed, one curve for each label, where the input can do it.
+
+    Parameters
+    ----------
+    efforts : dict
+        What was computed, by label.
+    title : str
+        Of the figure.
+    """
     with style():
         figure = new_figure(7.0, 3.2)
         figure.suptitle(title, x=0.01, ha="left", fontsize=10)

@@ -17,6 +17,15 @@ __all__ = ["oscillation_figure"]
 def oscillation_figure(fit: Oscillation, title: str = "") -> Any:
     """Return a matplotlib Figure with the signal, the fitted oscillation and the residuals.
 
+    Parameters
+    ----------
+    fit : Oscillation
+        What was fitted, with the signal.
+    title : str
+        Of the figure; none if empty.
+
+    Examples
+    --------
     >>> import numpy as np
     >>> from singletrack.measuring.oscillation import fit_oscillation
     >>> t = np.linspace(0, 10, 500)

@@ -25,6 +25,7 @@ __all__ = [
     "eigenvalues_csv",
     "eigenvalues_table",
     "format_root",
+    "rows_table",
     "write_csv",
 ]
 
@@ -42,6 +43,15 @@ _WORDS = {
 def write_csv(header: Iterable[str], rows: Iterable[Iterable[Any]]) -> str:
     r"""Return CSV text; numbers in full double precision.
 
+    Parameters
+    ----------
+    header : iterable of str
+        Names of the columns.
+    rows : iterable of iterables
+        Values of each line, numbers or text.
+
+    Examples
+    --------
     >>> write_csv(["speed", "root"], [[0.1, -1.0]])
     'speed,root\n0.1,-1.0\n'
     """
@@ -50,6 +60,24 @@ def write_csv(header: Iterable[str], rows: Iterable[Iterable[Any]]) -> str:
     writer.writerow(header)
     writer.writerows(rows)
     return text.getvalue()
+
+
+def rows_table(title: str, headings: Sequence[str], rows: Iterable[Sequence[str]]) -> Table:
+    """Return a table for reading, its first column to the left.
+
+    Parameters
+    ----------
+    title : str
+    headings : sequence of str
+        Of the columns.
+    rows : iterable of sequences of str
+    """
+    table = _table(title)
+    for place, heading in enumerate(headings):
+        table.add_column(Words(heading, whole=True), justify="right" if place else "left")
+    for row in rows:
+        table.add_row(*(Words(cell, whole=True) for cell in row))
+    return table
 
 
 def coefficients_table(model: LinearModel, title: str, deviations: Mapping[str, np.ndarray] | None = None) -> Group:
@@ -91,6 +119,13 @@ def _table(title: str) -> Table:
 def format_root(first: complex, second: complex | None = None) -> str:
     """Return one root, or two (a pair, or two real ones), for reading.
 
+    Parameters
+    ----------
+    first, second : complex
+        In 1/s.
+
+    Examples
+    --------
     >>> format_root(-0.5 + 2j, -0.5 - 2j), format_root(1.0 + 0j), format_root(1.0 + 0j, 2.0 + 0j)
     ('-0.500 ± 2.000i', '1.000', '1.000, 2.000')
     """

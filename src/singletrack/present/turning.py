@@ -31,12 +31,15 @@ def turn_text(
     quantities
         What, value, unit, in the order of the lines.
     forces
-        Whose, and its three components, N.
+        Whose, and its components, shape (3,), N.
     roots
-        Names of the modes and their eigenvalues, 1/s.
+        Names of the modes and their eigenvalues, 1/s, each a scalar.
     """
     lines = [f"{what + ':':<22}{value:10.4g} {unit}".rstrip() for what, value, unit in quantities]
-    lines += [f"{whose + ':':<22}" + " ".join(f"{part:9.1f}" for part in force) + " N" for whose, force in forces]
+    lines += [
+        f"{whose + ':':<22}" + " ".join(f"{round(float(part), 1) + 0.0:9.1f}" for part in force) + " N"
+        for whose, force in forces
+    ]
     lines.append("eigenvalues in 1/s:")
     lines += [f"  {name:<20}{format_root(value)}" for name, value in roots]
     return "\n".join(lines)

@@ -38,6 +38,15 @@ def roots_table(speeds: Array, roots: Array, title: str) -> Table:
 def roots_csv(speeds: Array, roots: Array) -> str:
     r"""Return CSV: speed, then real and imaginary part of every eigenvalue.
 
+    Parameters
+    ----------
+    speeds : array, shape (k,)
+        In m/s.
+    roots : array, shape (k, m)
+        In 1/s.
+
+    Examples
+    --------
     >>> roots_csv(np.array([5.0]), np.array([[-1.0 + 2.0j]]))
     'speed,root 1 real,root 1 imag\n5.0,-1.0,2.0\n'
     """
@@ -47,7 +56,15 @@ def roots_csv(speeds: Array, roots: Array) -> str:
 
 
 def roots_dict(speeds: Array, roots: Array) -> dict[str, Any]:
-    """Return speeds and eigenvalues as [k][m][re, im], for JSON."""
+    """Return speeds and eigenvalues as [k][m][re, im], for JSON.
+
+    Parameters
+    ----------
+    speeds : array, shape (k,)
+        In m/s.
+    roots : array, shape (k, m)
+        In 1/s.
+    """
     return {"speeds": speeds.tolist(), "eigenvalues": np.stack([roots.real, roots.imag], axis=-1).tolist()}
 
 

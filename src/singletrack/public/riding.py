@@ -58,7 +58,13 @@ class Ride:
         return str(self.data.attrs["end"]) == "all times reached"
 
     def coordinate(self, name: str) -> Array:
-        """Return a coordinate over time, (t,), m or rad."""
+        """Return a coordinate over time, (t,), m or rad.
+
+        Parameters
+        ----------
+        name : str
+            Of a coordinate of the machine, such as ``lean`` or ``steer``.
+        """
         values: Array = self.data.q.sel(coordinate=name).to_numpy()
         return values
 

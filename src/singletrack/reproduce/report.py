@@ -90,7 +90,19 @@ def _matrix_rows(case: Case) -> list[tuple[str, list[list[str]]]]:
 def markdown_report(
     cases: dict[str, Case], statements: list[Statement], agreements: list[Agreement], pictures: list[Picture]
 ) -> str:
-    """Return the report as Markdown; figures are linked, in ``figures/`` beside it."""
+    """Return the report as Markdown; figures are linked, in ``figures/`` beside it.
+
+    Parameters
+    ----------
+    cases : dict
+        What was computed, by name.
+    statements : list of Statement
+        What the papers say, and whether it holds.
+    agreements : list of Agreement
+        Between the two derivations.
+    pictures : list of Picture
+        The figures, in order.
+    """
     lines = [f"# {_TITLE}", "", _INTRODUCTION, "", _made(), "", "## The papers and the computation", ""]
     for title, summary, own in _by_paper(statements):
         lines += [f"### {title}", "", summary, "", "| " + " | ".join(_STATEMENT_HEADER) + " |"]
@@ -127,7 +139,19 @@ _TEMPLATES = Environment(
 def html_report(
     cases: dict[str, Case], statements: list[Statement], agreements: list[Agreement], pictures: list[Picture]
 ) -> str:
-    """Return the report as one HTML file with everything in it; every text is escaped."""
+    """Return the report as one HTML file with everything in it; every text is escaped.
+
+    Parameters
+    ----------
+    cases : dict
+        What was computed, by name.
+    statements : list of Statement
+        What the papers say, and whether it holds.
+    agreements : list of Agreement
+        Between the two derivations.
+    pictures : list of Picture
+        The figures, in order.
+    """
     return _TEMPLATES.get_template("report.html").render(
         title=_TITLE,
         introduction=_INTRODUCTION,

@@ -127,7 +127,12 @@ def _skeleton(variant: Variant) -> Callable[[Any], Any]:
 
 
 def programs(all_variants: Iterable[Variant]) -> str:
-    """Return the JavaScript module with the programs of all variants."""
+    """Return the JavaScript module with the programs of all variants.
+
+    Parameters
+    ----------
+    all_variants : iterable of Variant
+    """
     config: Any = jax.config
     before = config.jax_enable_x64
     config.update("jax_enable_x64", val=True)
@@ -149,7 +154,12 @@ def _freedoms(variant: Variant) -> list[float]:
 
 
 def manifest(all_variants: Iterable[Variant]) -> dict[str, Any]:
-    """Return what the page has to know beside the programs: parameters, variants, and records to begin with."""
+    """Return what the page has to know beside the programs: parameters, variants, and records to begin with.
+
+    Parameters
+    ----------
+    all_variants : iterable of Variant
+    """
     parameters = [
         {"name": name, "of": record.kind, **{key: getattr(p, key) for key in _DESCRIBED}}
         for record in (Bicycle, Rider)

@@ -6,6 +6,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from mechanisms import random_mechanism
 from singletrack import closed_form, load_bicycle, load_rider, multibody
@@ -22,6 +24,7 @@ SEATS = [
     Options("leaned", arms="bent"),
     Options("leaned", "axial"),
     Options("moore-2012"),
+    Options("one-hand"),
 ]
 SPRINGS, DAMPERS = {"torso lean": 100.0, "steer": 3.0}, {"torso lean": 10.0, "steer": 0.5}
 
@@ -61,8 +64,10 @@ def test_engines_agree_on_soft_hands_and_sprung_joints(options):
     assert_same(load_bicycle("browser"), RIDER, options)
 
 
-@pytest.mark.parametrize("seed", range(50))
+@settings(max_examples=50, deadline=None, derandomize=True)
+@given(seed=st.integers(0, 10_000))
 def test_engines_agree_on_random_mechanisms(seed):
+    """Random trees of hinges and sliders, loops to the bar, the frame and each other, freedoms, springs, dampers."""
     assert_same(load_bicycle("stratos"), RIDER, Options(random_mechanism(seed)))
 
 

@@ -25,6 +25,13 @@ def solve_again(b: np.ndarray, c: np.ndarray, d: np.ndarray, e: np.ndarray) -> n
     Roots of very different size only need more of Newton's steps; for those that (nearly) meet, LAPACK finds the
     eigenvalues of the companion matrix, and these are refined until each is exact for coefficients changed by rounding.
     Here, too, the product of the roots' factors is compared with the quartic: what it does not reproduce becomes NaN.
+
+    Shape (k, 4), complex.
+
+    Parameters
+    ----------
+    b, c, d, e : array, shape (k,)
+        Of x⁴ + b x³ + c x² + d x + e.
     """
     with np.errstate(all="ignore"):
         p1, q1, p2, q2, good = factor(b, c, d, e, np.where, np.sqrt, newton_steps=12)
@@ -78,7 +85,17 @@ def _reproduced(roots: np.ndarray, monic: np.ndarray) -> np.ndarray:
 
 
 def refined(s: Array, coefficients: tuple[Array, ...], where: Callable[..., Array]) -> tuple[Array, Array]:
-    """Return roots (..., 4) after one iteration of Ehrlich and Aberth, and which of them were exact to rounding."""
+    """Return roots (..., 4) after one iteration of Ehrlich and Aberth, and which of them were exact to rounding.
+
+    Parameters
+    ----------
+    s : array, shape (..., 4)
+        The roots so far, complex.
+    coefficients : tuple of array, shape (...)
+        b, c, d, e.
+    where : callable
+        ``where`` of the arrays' namespace.
+    """
     value, slope, size = horner(s, coefficients)
     newton = value / where(slope == 0, 1e-300, slope)
     gaps = s[..., :, None] - s[..., None, :]

@@ -84,6 +84,13 @@ def resolvent_root(
     The roots are x₁x₂ + x₃x₄ and so on, one for each way to pair the quartic's roots x. Real factors come from the
     largest, or, if all x are real, from any: then from that end of the three which is farther from the middle one,
     because the distances between the roots of the cubic are those between the roots in different factors.
+
+    Parameters
+    ----------
+    b, c, d, e : array, shape (...)
+        Of x⁴ + b x³ + c x² + d x + e.
+    where, sqrt : callable
+        Of the arrays' namespace (or compiled stand-ins).
     """
     bd_4e = b * d - 4.0 * e
     P = bd_4e - c * c * _THIRD
@@ -103,7 +110,17 @@ def resolvent_root(
 
 
 def cubic_start(P: Array, q: Array, inner: Array, where: Callable[..., Array], sqrt: Callable[[Array], Array]) -> Array:
-    """Return the largest root of u³ + P u = q to a few per cent (``inner``: q < 0 and three real roots)."""
+    """Return the largest root of u³ + P u = q to a few per cent (``inner``: q < 0 and three real roots).
+
+    Parameters
+    ----------
+    P, q : array, shape (...)
+        Of the cubic.
+    inner : array of bool, shape (...)
+        Where q < 0 and all three roots are real.
+    where, sqrt : callable
+        Of the arrays' namespace (or compiled stand-ins).
+    """
     size = abs(P)
     root = sqrt(size)
     cube = abs(q) + where(P < 0.0, size * root, 0.0) + 1e-300
@@ -126,6 +143,13 @@ def newton_step(
 
     So the correction of a factor is as accurate, relative to that factor, as its coefficients, however different in
     size the roots of the two factors are.
+
+    Parameters
+    ----------
+    b, c, d, e : array, shape (...)
+        Of x⁴ + b x³ + c x² + d x + e.
+    p1, q1, p2, q2 : array, shape (...)
+        Of the factors x² + p x + q.
     """
     rb, rc = b - (p1 + p2), c - (q1 + q2 + p1 * p2)
     rd, re = d - (p1 * q2 + p2 * q1), e - q1 * q2
@@ -143,7 +167,15 @@ def newton_step(
 
 
 def reproduces(b: Array, c: Array, d: Array, e: Array, p1: Array, q1: Array, p2: Array, q2: Array) -> Array:
-    """Tell whether the product of the factors is the quartic, each coefficient to a few roundings of its terms."""
+    """Tell whether the product of the factors is the quartic, each coefficient to a few roundings of its terms.
+
+    Parameters
+    ----------
+    b, c, d, e : array, shape (...)
+        Of x⁴ + b x³ + c x² + d x + e.
+    p1, q1, p2, q2 : array, shape (...)
+        Of the factors x² + p x + q.
+    """
     p12, p1q2, p2q1, q12 = p1 * p2, p1 * q2, p2 * q1, q1 * q2
     return (
         (abs(b - (p1 + p2)) <= _ROUNDING * (abs(p1) + abs(p2)))
@@ -156,7 +188,15 @@ def reproduces(b: Array, c: Array, d: Array, e: Array, p1: Array, q1: Array, p2:
 def ordered_roots(
     p1: Array, q1: Array, p2: Array, q2: Array, where: Callable[..., Array], sqrt: Callable[[Array], Array]
 ) -> tuple[Array, ...]:
-    """Return the roots of two factors, sorted by real then imaginary part: four real parts, then four imaginary."""
+    """Return the roots of two factors, sorted by real then imaginary part: four real parts, then four imaginary.
+
+    Parameters
+    ----------
+    p1, q1, p2, q2 : array, shape (...)
+        Of the factors x² + p x + q.
+    where, sqrt : callable
+        Of the arrays' namespace (or compiled stand-ins).
+    """
     a, ai, b, bi = quadratic_roots(p1, q1, where, sqrt)
     c, ci, d, di = quadratic_roots(p2, q2, where, sqrt)
     # Batcher's merge of two sorted pairs.
@@ -169,7 +209,15 @@ def ordered_roots(
 def quadratic_roots(
     p: Array, q: Array, where: Callable[..., Array], sqrt: Callable[[Array], Array]
 ) -> tuple[Array, Array, Array, Array]:
-    """Return real and imaginary part of the lower, then of the upper root of s² + p s + q."""
+    """Return real and imaginary part of the lower, then of the upper root of s² + p s + q.
+
+    Parameters
+    ----------
+    p, q : array, shape (...)
+        Of the quadratic.
+    where, sqrt : callable
+        Of the arrays' namespace (or compiled stand-ins).
+    """
     half = -0.5 * p
     discriminant = half * half - q
     real = discriminant >= 0.0
@@ -184,6 +232,16 @@ def quadratic_roots(
 def sort_two(
     a: Array, ai: Array, b: Array, bi: Array, where: Callable[..., Array]
 ) -> tuple[Array, Array, Array, Array]:
-    """Return two complex numbers, given and returned as real and imaginary parts, the smaller one first."""
+    """Return two complex numbers, given and returned as real and imaginary parts, the smaller one first.
+
+    Parameters
+    ----------
+    a, ai : array, shape (...)
+        Real and imaginary part of one.
+    b, bi : array, shape (...)
+        Those of the other.
+    where : callable
+        Of the arrays' namespace (or a compiled stand-in).
+    """
     swap = (a > b) | ((a == b) & (ai > bi))
     return where(swap, b, a), where(swap, bi, ai), where(swap, a, b), where(swap, ai, bi)

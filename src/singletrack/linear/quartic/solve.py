@@ -71,7 +71,15 @@ def use_compiled() -> bool:
 
 
 def solve_into(roots: np.ndarray, b: np.ndarray, c: np.ndarray, d: np.ndarray, e: np.ndarray) -> None:
-    """Write the roots of at most some thousand quartics, coefficients of shape (k,), to a complex array (k, 4)."""
+    """Write the roots of at most some thousand quartics, coefficients of shape (k,), to a complex array (k, 4).
+
+    Parameters
+    ----------
+    roots : array, shape (k, 4)
+        Complex; it is overwritten.
+    b, c, d, e : array, shape (k,)
+        Of x⁴ + b x³ + c x² + d x + e.
+    """
     _Kernel.solved += len(roots)
     if _Kernel.solved > _WORTH_COMPILING:
         use_compiled()

@@ -105,7 +105,17 @@ def _limbs(bicycle: Bicycle, rider: Rider, options: Options) -> list[Line]:
 
 
 def placed(model: Model, lines: tuple[Line, ...], q: Array) -> list[Array]:
-    """Return where the points of each line are, (t, k, 3), m, for coordinates q (t, n) of the machine."""
+    """Return where the points of each line are, (t, k, 3), m, for coordinates q (t, n) of the machine.
+
+    Parameters
+    ----------
+    model : Model
+        The machine.
+    lines : tuple of Line
+        Whose points are told in the bodies that carry them.
+    q : array, shape (t, n)
+        The machine's coordinates, m or rad.
+    """
     p, bodies = model.parameters(), [body.name for body in model.system.bodies]
     translations, rotations = (part.full() for part in model.equations.poses(q.T, p))
     count = len(q)

@@ -37,7 +37,15 @@ class Numbers:
     structure: dict[str, float] = field(default_factory=dict)
 
     def number(self, name: str, value: Any) -> Scalar:
-        """Return a parameter for a number, or the number where it is structural."""
+        """Return a parameter for a number, or the number where it is structural.
+
+        Parameters
+        ----------
+        name : str
+            Of the parameter.
+        value : number
+            SI; exactly 0, 1 or -1 is structural.
+        """
         value = float(value)
         if value in _STRUCTURAL:
             self.structure[name] = value + 0.0  # no negative zero
@@ -46,16 +54,40 @@ class Numbers:
         return parameter(name)
 
     def always(self, name: str, value: Any) -> Scalar:
-        """Return a parameter for a number, whatever it is."""
+        """Return a parameter for a number, whatever it is.
+
+        Parameters
+        ----------
+        name : str
+            Of the parameter.
+        value : number
+            SI.
+        """
         self.values[name] = float(value)
         return parameter(name)
 
     def vector(self, name: str, components: Iterable[Any]) -> tuple[Scalar, ...]:
-        """Return three parameters, ``name.x`` to ``name.z``."""
+        """Return three parameters, ``name.x`` to ``name.z``.
+
+        Parameters
+        ----------
+        name : str
+            How the parameters' names begin.
+        components : three numbers
+            SI.
+        """
         return tuple(self.number(f"{name}.{axis}", value) for axis, value in zip("xyz", components, strict=True))
 
     def inertia(self, name: str, matrix: Any) -> tuple[Scalar, ...]:
-        """Return the six parameters of an inertia matrix (3, 3), as :class:`~singletrack.multibody.Body` takes them."""
+        """Return the six parameters of an inertia matrix (3, 3), as :class:`~singletrack.multibody.Body` takes them.
+
+        Parameters
+        ----------
+        name : str
+            How the parameters' names begin.
+        matrix : array, shape (3, 3)
+            In kg m^2.
+        """
         places = {"xx": (0, 0), "yy": (1, 1), "zz": (2, 2), "xy": (0, 1), "yz": (1, 2), "xz": (0, 2)}
         return tuple(self.number(f"{name}.{axes}", matrix[place]) for axes, place in places.items())
 

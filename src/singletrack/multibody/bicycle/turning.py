@@ -76,7 +76,15 @@ def circle(motion: SteadyMotion) -> Circle:
 
 
 def turn_eigenvalues(motion: SteadyMotion) -> Array:
-    """Return the eigenvalues of small motions about a steady turn, 1/s; one is zero, of the neighbouring turn."""
+    """Return the eigenvalues of small motions about a steady turn, 1/s; one is zero, of the neighbouring turn.
+
+    Shape (m,), complex.
+
+    Parameters
+    ----------
+    motion : SteadyMotion
+        The turn.
+    """
     return linearise(motion.state, motion.inputs, keep=resting(motion.state.model)).eigenvalues()
 
 

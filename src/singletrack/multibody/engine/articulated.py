@@ -108,7 +108,15 @@ def _solve_tree(system: System, frames: Mapping[str, Frame], links: Mapping[str,
 
 
 def tree_expression(system: System, equations: Equations) -> ca.Function:
-    """Return the function (q, u_i, f, p) -> u (n,), a (n,), no multipliers, for a tree without constraints."""
+    """Return the function (q, u_i, f, p) -> u (n,), a (n,), no multipliers, for a tree without constraints.
+
+    Parameters
+    ----------
+    system : System
+        Whose joints form a tree and whose wheels, if any, are free.
+    equations : Equations
+        Its equations of motion.
+    """
     n = len(system.coordinates)
     q, u = ca.SX.sym("q ", n), ca.SX.sym("u ", n)
     f, p = ca.SX.sym("f", len(system.inputs)), ca.SX.sym("p", len(equations.parameter_names))

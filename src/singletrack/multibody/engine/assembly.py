@@ -21,6 +21,7 @@ NEWTON_STEPS = 60
 CLOSED = 1e-12
 WALK = 21
 FLAT = 1e-12
+SINGULAR_HERE = "singular configuration: the independent speeds do not determine the others here"
 
 
 def _blame(model: Model, q: Array, gradient: Array, phi: Array) -> ModelError:
@@ -39,6 +40,17 @@ def _blame(model: Model, q: Array, gradient: Array, phi: Array) -> ModelError:
 
 def close(model: Model, q: Array, p: Array, movable: Sequence[int]) -> Array:
     """Return coordinates that satisfy the holonomic constraints, by Gauss-Newton on the movable ones.
+
+    Parameters
+    ----------
+    model : Model
+        The machine.
+    q : array, shape (n,)
+        Where to begin, m or rad.
+    p : array, shape (parameters,)
+        Values of the parameters, gravity first.
+    movable : sequence of int
+        The coordinates that may change.
 
     Raises
     ------
@@ -124,6 +136,15 @@ def refuse_undefined(model: Model, q: Array, p: Array) -> None:
 
     A wheel that lies flat touches the ground all around; a spring whose ends meet, or the rod of a
     :func:`close_distance`, pulls nowhere.
+
+    Parameters
+    ----------
+    model : Model
+        The machine.
+    q : array, shape (n,)
+        Coordinates, m or rad.
+    p : array, shape (parameters,)
+        Values of the parameters, gravity first.
     """
     levels = model.equations.contacts(q, p)[2].full().ravel()
     for wheel, level in zip(model.system.wheels, levels, strict=True):
@@ -218,17 +239,34 @@ def move(state: State, rates: Mapping[str, float]) -> State:
 
 
 def tangent_space(state: State) -> Array:
-    """Return T (n, freedoms): the speeds for each independent speed alone at one."""
+    """Return T (n, freedoms): the speeds for each independent speed alone at one.
+
+    Parameters
+    ----------
+    state : State
+        On the constraints.
+    """
     jacobian, _ = state.model.kinetics(state.q, state.parameters)
     return span_of(state.partition, jacobian)
 
 
 def span_of(parts: Partition, jacobian: Array) -> Array:
-    """Return T (n, freedoms) with C T = 0 for a constraint Jacobian C (rows, n)."""
+    """Return T (n, freedoms) with C T = 0 for a constraint Jacobian C (rows, n).
+
+    Parameters
+    ----------
+    parts : Partition
+        Which speeds are independent, which dependent, which rows bind them.
+    jacobian : array, shape (rows, n)
+        C.
+    """
     dependent, free = list(parts.dependent_speeds), list(parts.independent_speeds)
     span = np.zeros((jacobian.shape[1], len(free)))
     span[free, range(len(free))] = 1.0
     if dependent:
         kept = jacobian[list(parts.rows)]
-        span[dependent] = -np.linalg.solve(kept[:, dependent], kept[:, free])
+        try:
+            span[dependent] = -np.linalg.solve(kept[:, dependent], kept[:, free])
+        except np.linalg.LinAlgError:
+            raise ModelError(SINGULAR_HERE) from None
     return span

@@ -21,7 +21,16 @@ def is_number(value: Any) -> bool:
 
 
 def check_number(element: str, quantity: str, value: Any, low: float = -math.inf) -> Any:
-    """Return a parameter as it is and a number as a float; refuse what is not finite or below ``low``."""
+    """Return a parameter as it is and a number as a float; refuse what is not finite or below ``low``.
+
+    Parameters
+    ----------
+    element, quantity : str
+        What it is a property of, and which, for a message.
+    value : number or parameter
+    low : float
+        The least that is allowed.
+    """
     if not is_number(value):
         return value
     try:
@@ -35,7 +44,14 @@ def check_number(element: str, quantity: str, value: Any, low: float = -math.inf
 
 
 def check_vector(element: str, quantity: str, value: Sequence[Any]) -> tuple[Any, ...]:
-    """Return three checked numbers."""
+    """Return three checked numbers.
+
+    Parameters
+    ----------
+    element, quantity : str
+        What it is a property of, and which, for a message.
+    value : three numbers or parameters
+    """
     try:
         components = tuple(value)
     except TypeError:
@@ -46,7 +62,15 @@ def check_vector(element: str, quantity: str, value: Sequence[Any]) -> tuple[Any
 
 
 def check_axis(element: str, quantity: str, value: Sequence[Any]) -> tuple[Any, ...]:
-    """Return a unit vector (a vector of parameters is returned as it is)."""
+    """Return a unit vector (a vector of parameters is returned as it is).
+
+    Parameters
+    ----------
+    element, quantity : str
+        What it is a property of, and which, for a message.
+    value : three numbers or parameters
+        Of any length but zero.
+    """
     axis = check_vector(element, quantity, value)
     if not all(is_number(component) for component in axis):
         return axis
@@ -57,7 +81,15 @@ def check_axis(element: str, quantity: str, value: Sequence[Any]) -> tuple[Any, 
 
 
 def check_inertia(element: str, inertia: Sequence[float]) -> None:
-    """Refuse an inertia that no body can have (negative, or against the triangle inequality)."""
+    """Refuse an inertia that no body can have (negative, or against the triangle inequality).
+
+    Parameters
+    ----------
+    element : str
+        What has it, for a message.
+    inertia : six numbers
+        xx, yy, zz, xy, xz, yz in kg m^2.
+    """
     xx, yy, zz, xy, yz, xz = inertia
     principal = np.linalg.eigvalsh(np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]))
     slack = 1e-9 * max(abs(principal))

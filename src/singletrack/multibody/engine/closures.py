@@ -79,6 +79,19 @@ def close_point(
     For a plane mechanism give the plane's ``normal``: then the points may part along it, and the trivial equation
     is left out.
 
+    Parameters
+    ----------
+    name : str
+        Of the loop.
+    first, second : str
+        Names of the bodies.
+    point, second_point : three numbers or parameters
+        In m, in the drawing; by default both bodies share the point.
+    normal : three numbers, optional
+        Of the plane.
+
+    Examples
+    --------
     >>> close_point("left hand", "bar", "arm", (0.4, -0.2, -1.1)).rows
     ('left hand (point 1)', 'left hand (point 2)', 'left hand (point 3)')
     >>> len(close_point("pin", "rod", "rocker", (1, 0, 0), normal=(0, 1, 0)).rows)
@@ -93,6 +106,19 @@ def close_point(
 def close_distance(name: str, first: str, second: str, points: tuple[Vector, Vector], length: Scalar) -> Closure:
     """Return a loop closed by a massless rod of fixed length (m) between two points.
 
+    Parameters
+    ----------
+    name : str
+        Of the loop.
+    first, second : str
+        Names of the bodies.
+    points : pair of three numbers or parameters
+        Where the rod ends on the first and on the second body, in m, in the drawing.
+    length : number or parameter
+        In m.
+
+    Examples
+    --------
     >>> close_distance("rod", "crank", "rocker", ((0, 0, 0), (1, 0, 0)), 1.2).rows
     ('rod (distance)',)
     """
@@ -115,6 +141,19 @@ def close_joint(
 
     ``axis`` is the hinge or sliding axis, the normal of a ``planar`` joint, or the first body's axis of a
     ``universal`` joint, whose ``second_axis`` must be given; elsewhere ``second_axis`` is ``axis`` as drawn.
+
+    Parameters
+    ----------
+    name : str
+        Of the loop.
+    kind : str
+        ``revolute``, ``prismatic``, ``universal``, ... as the joints are called.
+    first, second : str
+        Names of the bodies.
+    point, second_point : three numbers or parameters
+        In m, in the drawing; by default both bodies share the point.
+    axis, second_axis : three numbers
+        Directions in the drawing, of any length.
 
     Raises
     ------
@@ -146,6 +185,17 @@ def close_joint(
 def close_direction(name: str, first: str, second: str, axis: Vector, *, second_axis: Vector | None = None) -> Closure:
     """Return a loop that keeps an axis of the second body parallel to one of the first, wherever they are.
 
+    Parameters
+    ----------
+    name : str
+        Of the loop.
+    first, second : str
+        Names of the bodies.
+    axis, second_axis : three numbers
+        Directions in the drawing; by default both bodies share the axis.
+
+    Examples
+    --------
     >>> close_direction("level", "ground", "tray", (0, 0, 1)).rows
     ('level (angle 1)', 'level (angle 2)')
     """

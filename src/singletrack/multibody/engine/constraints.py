@@ -57,7 +57,17 @@ def closure_rate(closure: Closure, frames: Mapping[str, Frame]) -> SX:
 
 
 def closure_wrench(closure: Closure, frames: Mapping[str, Frame], multipliers: SX) -> tuple[SX, SX]:
-    """Return the force (N) and torque (N m) of the first body on the second, at its point, in the ground's frame."""
+    """Return the force (N) and torque (N m) of the first body on the second, at its point, in the ground's frame.
+
+    Parameters
+    ----------
+    closure : Closure
+        The loop.
+    frames : mapping
+        Of all bodies, by name.
+    multipliers : SX, shape (k,)
+        Of its rows.
+    """
     first, second = frames[closure.first], frames[closure.second]
     force, torque = ca.SX(3, 1), ca.SX(3, 1)
     if closure.length is not None:
@@ -87,7 +97,15 @@ class Contact:
 
 
 def wheel_contact(wheel: Wheel, frames: Mapping[str, Frame]) -> Contact:
-    """Return the contact of a wheel with the ground (see :class:`~singletrack.multibody.Wheel`)."""
+    """Return the contact of a wheel with the ground (see :class:`~singletrack.multibody.Wheel`).
+
+    Parameters
+    ----------
+    wheel : Wheel
+        The wheel.
+    frames : mapping
+        Of all bodies, by name.
+    """
     frame = frames[wheel.body]
     axle = frame.rotation @ unit(wheel.axle)
     across = ca.cross(axle, DOWN)
@@ -112,7 +130,17 @@ def _combined(system: System, ratio: Ratio, q: SX) -> SX:
 
 
 def holonomic_residual(system: System, frames: Mapping[str, Frame], contacts: Mapping[str, Contact], q: SX) -> SX:
-    """Return everything that must vanish in position: loops, lengths of quaternions, wheel heights."""
+    """Return everything that must vanish in position: loops, lengths of quaternions, wheel heights.
+
+    Parameters
+    ----------
+    system : System
+        The machine.
+    frames, contacts : mapping
+        Of all bodies, of all wheels, by name.
+    q : SX, shape (n,)
+        Joint coordinates.
+    """
     loops = [closure_residual(closure, frames) for closure in system.closures]
     loops += [_combined(system, ratio, q) - ratio.offset for ratio in system.ratios]
     lengths = [2 * part[0] + ca.dot(part, part) for part in _quaternions(system, q)]
@@ -120,7 +148,17 @@ def holonomic_residual(system: System, frames: Mapping[str, Frame], contacts: Ma
 
 
 def constraint_rates(system: System, frames: Mapping[str, Frame], contacts: Mapping[str, Contact], q: SX, u: SX) -> SX:
-    """Return everything that must vanish in velocity: rates of the holonomic residual, then the slip of wheels."""
+    """Return everything that must vanish in velocity: rates of the holonomic residual, then the slip of wheels.
+
+    Parameters
+    ----------
+    system : System
+        The machine.
+    frames, contacts : mapping
+        Of all bodies, of all wheels, by name.
+    q, u : SX, shape (n,)
+        Joint coordinates and speeds.
+    """
     touching = [contacts[wheel.name].velocity for wheel in system.wheels]
     loops = [closure_rate(closure, frames) for closure in system.closures]
     loops += [_combined(system, ratio, u) for ratio in system.ratios]
@@ -137,7 +175,19 @@ def constraint_wrenches(
     m: SX,
     applied: Mapping[str, Wrench],
 ) -> dict[str, Wrench]:
-    """Return the applied wrenches together with those of loops and wheels, for multipliers m, about the anchors."""
+    """Return the applied wrenches together with those of loops and wheels, for multipliers m, about the anchors.
+
+    Parameters
+    ----------
+    system : System
+        The machine.
+    frames, contacts : mapping
+        Of all bodies, of all wheels, by name.
+    m : SX, shape (rows,)
+        The multipliers.
+    applied : mapping
+        Wrenches by body.
+    """
     wrenches = dict(applied)
 
     def push(body: str, arm: SX, force: SX, torque: SX) -> None:

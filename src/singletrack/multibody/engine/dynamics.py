@@ -11,7 +11,7 @@ import numpy as np
 from singletrack.arrays import Array
 from singletrack.errors import ModelError, unknown_name
 from singletrack.multibody.engine.articulated import tree_expression
-from singletrack.multibody.engine.assembly import refuse_undefined, span_of
+from singletrack.multibody.engine.assembly import SINGULAR_HERE, refuse_undefined, span_of
 from singletrack.multibody.engine.kept import kept
 from singletrack.multibody.engine.reduction import MOST_ROWS, reduced_expression
 
@@ -55,6 +55,13 @@ def reduced(model: Model, parts: Partition) -> ca.Function:
 
     u_i are the independent speeds. With T from C T = 0 and b from C b = -c, the accelerations obey
     ``T^T M T a_i = -T^T (h + M b)``; the linear systems are solved numerically in every evaluation.
+
+    Parameters
+    ----------
+    model : Model
+        The machine.
+    parts : Partition
+        Which speeds are independent.
     """
     key = ("reduced", parts)
     if key not in model.cache:
@@ -64,7 +71,15 @@ def reduced(model: Model, parts: Partition) -> ca.Function:
 
 
 def expression(model: Model, parts: Partition) -> ca.Function:
-    """Return the function of :func:`reduced` as an expression, which can be differentiated."""
+    """Return the function of :func:`reduced` as an expression, which can be differentiated.
+
+    Parameters
+    ----------
+    model : Model
+        The machine.
+    parts : Partition
+        Which speeds are independent.
+    """
     key = ("expression", parts)
     if key not in model.cache:
         model.cache[key] = _reduced(model, parts)
@@ -135,15 +150,25 @@ def accelerations(state: State, inputs: Mapping[str, float] | None = None) -> Re
     _refuse_massless(state)
     function = reduced(state.model, state.partition)
     ui = state.u[list(state.partition.independent_speeds)]
-    _, a, multipliers = function(state.q, ui, f, state.parameters)
+    try:
+        _, a, multipliers = function(state.q, ui, f, state.parameters)
+    except RuntimeError:  # the linear solver's word for an exactly singular matrix
+        raise ModelError(SINGULAR_HERE) from None
     a, multipliers = a.full().ravel(), multipliers.full().ravel()
     if not np.all(np.isfinite(a)):
-        raise ModelError("the accelerations are not determined: the constraints lose rank here")
+        raise ModelError(SINGULAR_HERE)
     return Response(a, multipliers)
 
 
 def loop_forces(state: State, inputs: Mapping[str, float] | None = None) -> dict[str, Array]:
     """Return the force (3,) of the first body on the second of every closed loop, in the ground's frame, N.
+
+    Parameters
+    ----------
+    state : State
+        Whose accelerations decide the forces.
+    inputs : mapping, optional
+        Values of inputs by name, N or N m; those not given are zero.
 
     Examples
     --------
@@ -169,6 +194,17 @@ def wheel_forces(state: State, inputs: Mapping[str, float] | None = None) -> dic
 
     The normal force is positive when the wheel presses on the ground.
 
+    By the wheels' names, each of shape (3,).
+
+    Parameters
+    ----------
+    state : State
+        Whose accelerations decide the forces.
+    inputs : mapping, optional
+        Values of inputs by name, N or N m; those not given are zero.
+
+    Examples
+    --------
     >>> from singletrack import load_bicycle
     >>> from singletrack.multibody import bicycle_model, ride
     >>> loads = wheel_forces(ride(bicycle_model(load_bicycle("benchmark")), 0.0))
@@ -180,7 +216,14 @@ def wheel_forces(state: State, inputs: Mapping[str, float] | None = None) -> dic
 
 
 def split_wheel_forces(system: System, multipliers: Array) -> Array:
-    """Return (k, wheels, 3) longitudinal, lateral and normal forces from multipliers (k, rows), N."""
+    """Return (k, wheels, 3) longitudinal, lateral and normal forces from multipliers (k, rows), N.
+
+    Parameters
+    ----------
+    system : System
+        The machine.
+    multipliers : array, shape (k, rows)
+    """
     holonomic, wheels = len(system.holonomic_rows), len(system.wheels)
     normal = -multipliers[:, holonomic - wheels : holonomic]
     rolling = multipliers[:, holonomic:].reshape(len(multipliers), wheels, 2)

@@ -182,6 +182,11 @@ def _loop_wrenches(system: System, s: _Symbols) -> tuple[SX, SX]:
 def derive(system: System) -> Equations:
     """Derive the equations of motion of a machine (see the module's text).
 
+    Parameters
+    ----------
+    system : System
+        Bodies, joints, loops, wheels, forces.
+
     Raises
     ------
     ModelError

@@ -111,7 +111,19 @@ def steady_motion(
 def plan(
     start: State, given: Mapping[str, float], rates: Mapping[str, float], resting: Sequence[str], adjust: Sequence[str]
 ) -> Search:
-    """Return what is sought, for what is given by name."""
+    """Return what is sought, for what is given by name.
+
+    Parameters
+    ----------
+    start : State
+        Where the search begins.
+    given, rates : mapping
+        Coordinates and rates that are given, by name.
+    resting : sequence of str
+        Coordinates whose rates must vanish.
+    adjust : sequence of str
+        Inputs that may be chosen.
+    """
     system, parts = start.model.system, start.partition
     free = [system.coordinates[i] for i in parts.independent_coordinates]
     for name in resting:
@@ -138,7 +150,17 @@ def _with_speeds(state: State, q: Array, u_i: Array) -> State:
 
 
 def residual(state: State, f: Array, search: Search) -> tuple[Response, Array, Variations]:
-    """Return the response, what must vanish (independent accelerations, rates at rest) and the derivatives."""
+    """Return the response, what must vanish (independent accelerations, rates at rest) and the derivatives.
+
+    Parameters
+    ----------
+    state : State
+        On the constraints.
+    f : array, shape (inputs,)
+        Values of the inputs, N or N m.
+    search : Search
+        What is sought.
+    """
     names = [given.name for given in state.model.system.inputs]
     response = accelerations(state, dict(zip(names, f.tolist(), strict=True)))
     independent = list(state.partition.independent_speeds)
@@ -147,7 +169,19 @@ def residual(state: State, f: Array, search: Search) -> tuple[Response, Array, V
 
 
 def derivative(state: State, search: Search, v: Variations) -> Array:
-    """Return the derivative of the residual with respect to what is sought: coordinates, speeds, inputs."""
+    """Return the derivative of the residual with respect to what is sought: coordinates, speeds, inputs.
+
+    Shape (equations, unknowns).
+
+    Parameters
+    ----------
+    state : State
+        On the constraints.
+    search : Search
+        What is sought.
+    v : Variations
+        Of the equations about the state.
+    """
     drive = v.span.T @ state.model.equations.input_matrix(state.q, state.parameters).full()
     k, s = search.coordinates, search.speeds
     changes = np.linalg.solve(v.M, np.hstack([-v.K[:, k], -v.C[:, s], drive[:, search.inputs]]))
@@ -163,7 +197,20 @@ def _step(state: State, f: Array, search: Search, left_over: Array, v: Variation
 
 
 def moved(state: State, f: Array, search: Search, step: Array, v: Variations) -> tuple[State, Array]:
-    """Return the state and inputs after a step in what is sought, with loops closed."""
+    """Return the state and inputs after a step in what is sought, with loops closed.
+
+    Parameters
+    ----------
+    state : State
+        Before.
+    f : array, shape (inputs,)
+        Values of the inputs before, N or N m.
+    search : Search
+        What is sought.
+    step : array, shape (unknowns,)
+    v : Variations
+        Of the equations about the state.
+    """
     k, s = search.coordinates, search.speeds
     parts = state.partition
     q = state.q.copy()

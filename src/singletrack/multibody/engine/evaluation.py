@@ -45,19 +45,45 @@ class Evaluator:
             buffer.set_arg(i, memoryview(given.data))
         for i, result in enumerate((self.u, self.a, self.multipliers)):
             buffer.set_res(i, memoryview(result.data))
-        self._buffer = buffer  # must live as long as the memory is used
+        count = len(system.holonomic_rows)
+        self.placed, self.phi, self.columns = np.empty(n), np.empty(count), np.empty((n, count))
+        closing: Any
+        closing, self._hold = state.model.equations.holonomic.buffer()
+        for i, given in enumerate((self.placed, state.parameters)):
+            closing.set_arg(i, memoryview(given.data))
+        for i, result in enumerate((self.phi, self.columns.reshape(-1))):
+            closing.set_res(i, memoryview(result.data))
+        self._buffers = buffer, closing  # must live as long as the memory is used
         self.rows = np.array(parts.rows[: parts.holonomic_count], dtype=int)
         self.dependent = np.array(parts.dependent_coordinates, dtype=int)
 
     def inputs(self, t: float) -> Array:
-        """Return the inputs at a time, seen from inside the interval."""
+        """Return the inputs at a time, seen from inside the interval.
+
+        Shape (inputs,), N or N m.
+
+        Parameters
+        ----------
+        t : float
+            In s.
+        """
         inside = min(max(t, self.low), self.high)
         for i, signal in enumerate(self.driven):
             self.f[i] = signal(inside)
         return self.f
 
     def respond(self, t: float, q: Array, u_i: Array) -> None:
-        """Fill ``u``, ``a`` and ``multipliers`` for a time, coordinates and independent speeds."""
+        """Fill ``u``, ``a`` and ``multipliers`` for a time, coordinates and independent speeds.
+
+        Parameters
+        ----------
+        t : float
+            In s.
+        q : array, shape (n,)
+            Coordinates, m or rad.
+        u_i : array, shape (m,)
+            Independent speeds.
+        """
         self.q[:], self.u_i[:] = q, u_i
         self.inputs(t)
         try:
@@ -66,18 +92,33 @@ class Evaluator:
             self.u[:] = self.a[:] = self.multipliers[:] = np.nan
 
     def slope(self, t: float, y: Array) -> Array:
-        """Return ``y' = [u, a_i]`` for ``y = [q, u_i]``."""
+        """Return ``y' = [u, a_i]`` for ``y = [q, u_i]``.
+
+        Parameters
+        ----------
+        t : float
+            In s.
+        y : array, shape (n + m,)
+        """
         n = len(self.q)
         self.respond(t, y[:n], y[n:])
         return np.concatenate([self.u, self.a[self.free]])
 
     def close(self, q: Array) -> Array | None:
-        """Return the coordinates with the dependent ones put back onto the constraints; None where that fails."""
+        """Return the coordinates with the dependent ones put back onto the constraints; None where that fails.
+
+        Parameters
+        ----------
+        q : array, shape (n,)
+            Close to the constraints.
+        """
         if not len(self.rows):
             return q
         q, last = q.copy(), np.inf
         for _ in range(NEWTON_STEPS):
-            phi, gradient = self.state.model.holonomic(q, self.state.parameters)
+            self.placed[:] = q
+            self._hold()
+            phi, gradient = self.phi, self.columns.T
             left = float(np.max(abs(phi[self.rows])))
             if left < CLOSED or (left < CLOSE and left > 0.5 * last):  # as near as rounding lets it come
                 return q
@@ -92,7 +133,15 @@ class Evaluator:
         return q if left < CLOSE * max(1.0, float(np.max(abs(q)))) else None
 
     def project(self, t: float, y: Array) -> State | None:
-        """Return the state of ``y = [q, u_i]`` put back onto the constraints; None where that fails."""
+        """Return the state of ``y = [q, u_i]`` put back onto the constraints; None where that fails.
+
+        Parameters
+        ----------
+        t : float
+            In s.
+        y : array, shape (n + m,)
+            Close to the constraints.
+        """
         n = len(self.q)
         q = self.close(y[:n]) if np.all(np.isfinite(y)) else None
         if q is None:
@@ -104,9 +153,14 @@ class Evaluator:
 
 
 def slope_jacobian(evaluator: Evaluator) -> Callable[[float, Array], Array]:
-    """Return the exact derivative (n + m, n + m) of the right side with respect to ``y = [q, u_i]``, for any t, y.
+    """Return the exact derivative, shape (n + m, n + m), of the right side by ``y = [q, u_i]``, for any t, y.
 
     By algorithmic differentiation of the equations, linear solutions included.
+
+    Parameters
+    ----------
+    evaluator : Evaluator
+        Of n coordinates and m independent speeds.
     """
     model, parts = evaluator.state.model, evaluator.state.partition
     key = ("slope jacobian", parts)

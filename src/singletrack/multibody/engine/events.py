@@ -78,7 +78,13 @@ def watched(event: Event) -> Watched:
 
 
 def default_ends(state: State) -> list[Watched]:
-    """Return what ends a simulation by itself: wheels that leave the ground or lie flat, and the machine's limits."""
+    """Return what ends a simulation by itself: wheels that leave the ground or lie flat, and the machine's limits.
+
+    Parameters
+    ----------
+    state : State
+        At the start.
+    """
     system = state.model.system
     found: list[Watched] = []
     holonomic, wheels = len(system.holonomic_rows), len(system.wheels)
@@ -155,6 +161,14 @@ def passages(
 
     Each event is looked at in six moments; between any two of one sign a dip towards zero is followed to its
     bottom, so that a double passage is found too.
+
+    Parameters
+    ----------
+    events : sequence of Watched
+    at : callable
+        The motion at a time; None where there is none.
+    start, stop : float
+        In s.
     """
     if not events:
         return []

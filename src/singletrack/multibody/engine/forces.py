@@ -21,7 +21,14 @@ __all__ = ["apart", "applied_wrenches", "coordinate_forces", "potential_energy"]
 
 
 def apart(spring: Spring | Closure, frames: Mapping[str, Frame]) -> SX:
-    """Return the vector from the first end to the second, of a spring or a loop."""
+    """Return the vector from the first end to the second, of a spring or a loop.
+
+    Parameters
+    ----------
+    spring : Spring or Closure
+    frames : mapping
+        Of all bodies, by name.
+    """
     first, second = frames[spring.first], frames[spring.second]
     second_arm, first_arm = second.arm(column(spring.second_point)), first.arm(column(spring.first_point))
     return second.position + second_arm - first.position - first_arm
@@ -38,7 +45,19 @@ def _stretch(spring: Spring, frames: Mapping[str, Frame]) -> tuple[SX, SX, SX, S
 
 
 def applied_wrenches(system: System, frames: Mapping[str, Frame], gravity: SX, inputs: SX) -> dict[str, Wrench]:
-    """Return the wrenches of gravity, springs and inputs on every body, about the anchors."""
+    """Return the wrenches of gravity, springs and inputs on every body, about the anchors.
+
+    Parameters
+    ----------
+    system : System
+        The machine.
+    frames : mapping
+        Of all bodies, by name.
+    gravity : SX, scalar
+        In m/s^2, down.
+    inputs : SX, shape (inputs,)
+        N or N m.
+    """
     wrenches: dict[str, Wrench] = {}
 
     def push(body: str, arm: SX | None, force: SX, torque: SX | None = None) -> None:
@@ -72,7 +91,17 @@ def applied_wrenches(system: System, frames: Mapping[str, Frame], gravity: SX, i
 
 
 def coordinate_forces(system: System, q: SX, u: SX, inputs: SX) -> SX:
-    """Return the forces (n,) on the joint coordinates: preload, springs, dampers and inputs."""
+    """Return the forces (n,) on the joint coordinates: preload, springs, dampers and inputs.
+
+    Parameters
+    ----------
+    system : System
+        The machine.
+    q, u : SX, shape (n,)
+        Joint coordinates and speeds.
+    inputs : SX, shape (inputs,)
+        N or N m.
+    """
     motions = [motion for joint in system.joints for motion in joint.motions]
     forces = [m.preload - m.stiffness * q[i] - m.damping * u[i] for i, m in enumerate(motions)]
     names = system.coordinates
@@ -94,7 +123,19 @@ def kinetic_energy(system: System, frames: Mapping[str, Frame]) -> SX:
 
 
 def potential_energy(system: System, frames: Mapping[str, Frame], gravity: SX, q: SX) -> SX:
-    """Return the potential energy of gravity, springs and joint laws, J."""
+    """Return the potential energy of gravity, springs and joint laws, J.
+
+    Parameters
+    ----------
+    system : System
+        The machine.
+    frames : mapping
+        Of all bodies, by name.
+    gravity : SX, scalar
+        In m/s^2, down.
+    q : SX, shape (n,)
+        Joint coordinates.
+    """
     energy = ca.SX(0)
     down = unit(system.down)
     for body in system.bodies:

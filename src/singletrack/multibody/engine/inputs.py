@@ -163,6 +163,13 @@ def _signal(value: Any) -> Signal:
 def signals(system: System, inputs: Mapping[str, Given] | None) -> list[Signal]:
     """Return one signal for each input of the machine; those not given are zero.
 
+    Parameters
+    ----------
+    system : System
+        The machine.
+    inputs : mapping, optional
+        Numbers, functions of time or signals by name, N or N m.
+
     Raises
     ------
     ModelError

@@ -38,7 +38,15 @@ def unit(vector: Vector) -> SX:
 
 
 def rotation_about(axis: SX, angle: SX) -> SX:
-    """Return the rotation matrix about a unit axis (Rodrigues)."""
+    """Return the rotation matrix about a unit axis (Rodrigues).
+
+    Parameters
+    ----------
+    axis : SX, shape (3,)
+        A unit vector.
+    angle : SX, scalar
+        In rad.
+    """
     c, s = ca.cos(angle), ca.sin(angle)
     return c * ca.SX.eye(3) + s * ca.skew(axis) + (1 - c) * (axis @ axis.T)
 
@@ -169,7 +177,15 @@ def coordinates_by_joint(system: System) -> dict[str, slice]:
 
 
 def forward(system: System, q: SX, u: SX, a: SX) -> tuple[dict[str, Frame], dict[str, Link]]:
-    """Return the frames of all bodies and the links of all joints for coordinates, speeds and accelerations (n,)."""
+    """Return the frames of all bodies and the links of all joints for coordinates, speeds and accelerations (n,).
+
+    Parameters
+    ----------
+    system : System
+        The machine.
+    q, u, a : SX, shape (n,)
+        Joint coordinates, speeds and accelerations.
+    """
     frames, links = {GROUND: ground_frame()}, {}
     place = coordinates_by_joint(system)
     for joint in tree_order(system):
@@ -202,6 +218,15 @@ def inverse(
     """Return the generalised forces (n,) that the motion takes beyond the applied wrenches, and the joints' wrenches.
 
     Recursive Newton-Euler: the wrench every joint must transmit, from the tips of the tree to the ground.
+
+    Parameters
+    ----------
+    system : System
+        The machine.
+    frames, links : mapping
+        Of :func:`forward`, by name.
+    applied : mapping
+        Wrenches by body.
     """
     bodies = {body.name: body for body in system.bodies}
     carried: dict[str, Wrench] = {}

@@ -81,6 +81,13 @@ class Linearisation:
     def select(self, names: Sequence[str]) -> tuple[Array, Array, Array, Array]:
         """Return M, C, K, B of some freedoms that move by themselves, such as lean and steer in straight running.
 
+        M, C and K have the shape (k, k), B (k, inputs).
+
+        Parameters
+        ----------
+        names : sequence of str
+            Of the freedoms, k of them.
+
         Raises
         ------
         ModelError

@@ -33,6 +33,13 @@ class Model:
     def parameters(self, values: Mapping[str, float] | None = None) -> Array:
         """Return the parameters p (gravity first) from the system's values and those given.
 
+        Shape (p,), in the order of the equations' parameter names.
+
+        Parameters
+        ----------
+        values : mapping, optional
+            By name, SI; they go before those of the system.
+
         Raises
         ------
         ModelError
@@ -52,7 +59,15 @@ class Model:
         return np.array([float(chosen[name]) for name in known])
 
     def vector(self, values: Mapping[str, float] | None, what: str = "coordinate") -> Array:
-        """Return the joint coordinates (n,) for some given by name; the others are zero."""
+        """Return the joint coordinates (n,) for some given by name; the others are zero.
+
+        Parameters
+        ----------
+        values : mapping, optional
+            By name, m or rad (per s for speeds).
+        what : str
+            What they are called in a message.
+        """
         names = self.system.coordinates
         vector = np.zeros(len(names))
         for name, value in (values or {}).items():
@@ -67,12 +82,28 @@ class Model:
         return _restored, (system, self.equations)
 
     def holonomic(self, q: Array, p: Array) -> tuple[Array, Array]:
-        """Return the residual phi (rows,) of the holonomic constraints and its gradient (rows, n)."""
+        """Return the residual phi (rows,) of the holonomic constraints and its gradient (rows, n).
+
+        Parameters
+        ----------
+        q : array, shape (n,)
+            Joint coordinates, m or rad.
+        p : array, shape (parameters,)
+            Values of the parameters, gravity first.
+        """
         phi, gradient = self.equations.holonomic(q, p)
         return phi.full().ravel(), gradient.full()
 
     def kinetics(self, q: Array, p: Array) -> tuple[Array, Array]:
-        """Return the constraint Jacobian C (rows, n) and the mass matrix M (n, n)."""
+        """Return the constraint Jacobian C (rows, n) and the mass matrix M (n, n).
+
+        Parameters
+        ----------
+        q : array, shape (n,)
+            Joint coordinates, m or rad.
+        p : array, shape (parameters,)
+            Values of the parameters, gravity first.
+        """
         jacobian, mass = self.equations.kinetics(q, p)
         return jacobian.full(), mass.full()
 
@@ -94,7 +125,13 @@ class State:
         return float(self.q[index_of(self.model.system, name)])
 
     def rate(self, name: str) -> float:
-        """Return the rate of a coordinate."""
+        """Return the rate of a coordinate.
+
+        Parameters
+        ----------
+        name : str
+            Of the coordinate; m/s or rad/s.
+        """
         return float(self.u[index_of(self.model.system, name)])
 
     @property
@@ -137,7 +174,15 @@ def finite(what: str, name: str, value: float) -> float:
 
 
 def index_of(system: System, name: str) -> int:
-    """Return the place of a coordinate by its name."""
+    """Return the place of a coordinate by its name.
+
+    Parameters
+    ----------
+    system : System
+        The machine.
+    name : str
+        Of the coordinate.
+    """
     if name not in system.coordinates:
         raise ModelError(unknown_name("coordinate", name, system.coordinates))
     return system.coordinates.index(name)
@@ -145,6 +190,11 @@ def index_of(system: System, name: str) -> int:
 
 def build(system: System) -> Model:
     """Derive the equations of motion of a machine.
+
+    Parameters
+    ----------
+    system : System
+        Bodies, joints, loops, wheels, forces.
 
     Examples
     --------

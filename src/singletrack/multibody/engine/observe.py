@@ -19,7 +19,17 @@ __all__ = ["observe", "observe_responses"]
 
 
 def observe(state: State, names: Sequence[str], dq: Array, du: Array) -> Array:
-    """Return the derivatives (outputs, directions) of named outputs along directions of coordinates and speeds."""
+    """Return the derivatives (outputs, directions) of named outputs along directions of coordinates and speeds.
+
+    Parameters
+    ----------
+    state : State
+        About which the motion is small.
+    names : sequence of str
+        Coordinates, rates (``'``), accelerations (``''``), multipliers or sensors.
+    dq, du : array, shape (n, directions)
+        Changes of coordinates and speeds.
+    """
     system = state.model.system
     sensors = [sensor.name for sensor in system.sensors]
     sensed = np.zeros((len(sensors), dq.shape[1]))
@@ -43,7 +53,23 @@ def observe(state: State, names: Sequence[str], dq: Array, du: Array) -> Array:
 def observe_responses(
     state: State, names: Sequence[str], v: Variations, columns: list[int], solved: Array, seen: Array, through: Array
 ) -> None:
-    """Fill in the rows of accelerations and of multipliers, in the states (C) and in the inputs (D)."""
+    """Fill in the rows of accelerations and of multipliers, in the states (C) and in the inputs (D).
+
+    Parameters
+    ----------
+    state : State
+        About which the motion is small.
+    names : sequence of str
+        Of the outputs.
+    v : Variations
+        Of the equations about the state.
+    columns : list of int
+        The directions that are states, k of them.
+    solved : array, shape (m, k + inputs)
+        Independent accelerations for unit states and inputs.
+    seen, through : array, shape (outputs, k) and (outputs, inputs)
+        C and D; they are written to.
+    """
     system, parts = state.model.system, state.partition
     jacobian, mass = state.model.kinetics(state.q, state.parameters)
     drive = state.model.equations.input_matrix(state.q, state.parameters).full()

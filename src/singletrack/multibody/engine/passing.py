@@ -84,6 +84,19 @@ def continue_through(
 ) -> Passed:
     """Continue a motion from a state at a time close before a singular position to the other side of it.
 
+    Parameters
+    ----------
+    state : State
+        Close before the position.
+    t : float
+        Its time, s.
+    loss : RankLoss
+        Where and when the constraints lose rank.
+    driven : sequence of Signal
+        The inputs.
+    bounds : pair of float
+        The times between which the motion may be continued, s.
+
     Raises
     ------
     ModelError

@@ -39,6 +39,13 @@ class Reaction:
 def joint_reactions(state: State, inputs: Mapping[str, float] | None = None) -> dict[str, Reaction]:
     """Return the reaction of every joint of the tree, under constant inputs.
 
+    Parameters
+    ----------
+    state : State
+        Whose accelerations decide the reactions.
+    inputs : mapping, optional
+        Values of inputs by name, N or N m; those not given are zero.
+
     Examples
     --------
     A bob at rest hangs from its hinge:

@@ -79,7 +79,17 @@ def _solved_transposed(lu: list[list[Any]], right: Sequence[Any]) -> list[Any]:
 
 
 def reduced_expression(equations: Equations, parts: Partition, sizes: tuple[int, int, int]) -> ca.Function:
-    """Return the function (q, u_i, f, p) -> u (n,), a (n,), multipliers (rows,), for n, inputs and rows in number."""
+    """Return the function (q, u_i, f, p) -> u (n,), a (n,), multipliers (rows,), for n, inputs and rows in number.
+
+    Parameters
+    ----------
+    equations : Equations
+        Of the machine.
+    parts : Partition
+        Which speeds are independent.
+    sizes : tuple of int
+        n, inputs and rows.
+    """
     n, inputs, rows = sizes
     free, dependent, pivots = list(parts.independent_speeds), list(parts.dependent_speeds), list(parts.pivots)
     m = len(free)

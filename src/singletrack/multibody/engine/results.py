@@ -73,7 +73,17 @@ def _blocks(matrix: Any, count: int, width: int) -> Array:
 def gather(
     snapshots: Sequence[Snapshot], driven: Sequence[Signal], happened: Sequence[tuple[str, float]]
 ) -> xr.Dataset:
-    """Collect the snapshots of a simulation, and what happened in it, into a data set (see the module's text)."""
+    """Collect the snapshots of a simulation, and what happened in it, into a data set (see the module's text).
+
+    Parameters
+    ----------
+    snapshots : sequence of Snapshot
+        In order of time.
+    driven : sequence of Signal
+        The inputs.
+    happened : sequence of (str, float)
+        Names and times (s) of events.
+    """
     import xarray as xr  # slow to import
 
     start = snapshots[0].state

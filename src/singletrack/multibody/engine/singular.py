@@ -53,21 +53,54 @@ class Usual:
         return cls(np.linalg.norm(state.model.kinetics(state.q, state.parameters)[0], axis=-1))
 
     def scale(self, jacobian: Array) -> Array:
-        """Return Jacobians (..., rows, n) scaled."""
+        """Return Jacobians (..., rows, n) scaled.
+
+        Parameters
+        ----------
+        jacobian : array, shape (..., rows, n)
+        """
         return jacobian / np.where(self.largest > 0.0, self.largest, 1.0)[:, None]
 
     def grow(self, jacobians: Array) -> None:
-        """Take note of more Jacobians (k, rows, n)."""
+        """Take note of more Jacobians (k, rows, n).
+
+        Parameters
+        ----------
+        jacobians : array, shape (k, rows, n)
+        """
         self.largest = np.maximum(self.largest, np.max(np.linalg.norm(jacobians, axis=-1), axis=0, initial=0.0))
 
 
 def firmness(model: Model, q: Array, p: Array, rank: int, usual: Usual) -> float:
-    """Return the ``rank``-th singular value of the row-scaled constraint Jacobian: zero where rank is lost."""
+    """Return the ``rank``-th singular value of the row-scaled constraint Jacobian: zero where rank is lost.
+
+    Parameters
+    ----------
+    model : Model
+        The machine.
+    q : array, shape (n,)
+        Coordinates, m or rad.
+    p : array, shape (parameters,)
+        Values of the parameters, gravity first.
+    rank : int
+        The usual rank.
+    usual : Usual
+        How large the rows usually are.
+    """
     return float(np.linalg.svd(usual.scale(model.kinetics(q, p)[0]), compute_uv=False)[rank - 1])
 
 
 def weakest(state: State, rank: int, usual: Usual) -> tuple[str, ...]:
-    """Return the names of the loops and wheels whose constraints give way in a state."""
+    """Return the names of the loops and wheels whose constraints give way in a state.
+
+    Parameters
+    ----------
+    state : State
+    rank : int
+        The usual rank.
+    usual : Usual
+        How large the rows usually are.
+    """
     system = state.model.system
     left, values, _ = np.linalg.svd(usual.scale(state.model.kinetics(state.q, state.parameters)[0]))
     lost = [i for i in range(rank) if values[i] < max(1e-3, 2.0 * values[rank - 1])]
@@ -92,7 +125,7 @@ def find_rank_loss(
     at
         The motion within and a little around the step, on the constraints.
     dense
-        The same by the integrator's interpolant, off the constraints by its error.
+        The same by the integrator's interpolant, y = [q, u_i] of shape (n + m,), off the constraints by its error.
     step
         When it begins and ends, s.
     usual

@@ -89,7 +89,7 @@ def quality(state: State) -> tuple[float, float]:
     try:
         fastest = float(np.max(abs(span_of(parts, jacobian)), initial=1.0))
         return max(fastest, float(np.linalg.cond(dependent)), growth), float(np.linalg.slogdet(dependent)[0])
-    except np.linalg.LinAlgError:
+    except (ModelError, np.linalg.LinAlgError):
         return np.inf, 0.0
 
 
@@ -221,7 +221,7 @@ def _repeat(run: Run, bounds: tuple[float, float], solver: Any) -> None:
 def _choose_anew(run: Run) -> None:
     try:
         chosen = best_choice(run.state)
-    except ModelError as error:
+    except (ModelError, np.linalg.LinAlgError, ValueError) as error:
         raise HaltError(f"singular at t = {run.time:.6g} s: {error}") from None
     rank = len(run.state.partition.rows)
     if len(chosen.partition.rows) != rank or quality(chosen)[0] > HOPELESS:

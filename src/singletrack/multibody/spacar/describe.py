@@ -88,6 +88,11 @@ _FIRST = set(KINDS)
 def describe(source: Source) -> Description:
     r"""Return what a file describes.
 
+    Parameters
+    ----------
+    source : Source
+        The statements of a file.
+
     Raises
     ------
     InputError

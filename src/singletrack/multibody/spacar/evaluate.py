@@ -22,7 +22,15 @@ def _scatter(matrix: Array, rows: Array, columns: Array, blocks: Array) -> None:
 
 
 def strains(layout: Layout, x: Array) -> tuple[Array, Array]:
-    """Return the deformations (m,), zero for those that are no functions of position, and their rows (m, n)."""
+    """Return the deformations (m,), zero for those that are no functions of position, and their rows (m, n).
+
+    Parameters
+    ----------
+    layout : Layout
+        The model as arrays.
+    x : array, shape (n,)
+        Coordinates.
+    """
     e, rows = np.zeros(len(layout.e_is)), np.zeros((len(layout.e_is), len(x)))
     for group in layout.groups:
         values, blocks = per_element("strain", group.kind, "value", x[group.x], group.p)
@@ -32,7 +40,15 @@ def strains(layout: Layout, x: Array) -> tuple[Array, Array]:
 
 
 def convective_rates(layout: Layout, x: Array, v: Array) -> Array:
-    """Return what the deformations' accelerations have beside rows times accelerations, (m,)."""
+    """Return what the deformations' accelerations have beside rows times accelerations, (m,).
+
+    Parameters
+    ----------
+    layout : Layout
+        The model as arrays.
+    x, v : array, shape (n,)
+        Coordinates and their rates.
+    """
     c = np.zeros(len(layout.e_is))
     for group in layout.groups:
         (values,) = per_element("strain", group.kind, "rate", x[group.x], group.p, v[group.x])
@@ -41,7 +57,15 @@ def convective_rates(layout: Layout, x: Array, v: Array) -> Array:
 
 
 def inertia(layout: Layout, x: Array, v: Array) -> tuple[Array, Array]:
-    """Return the mass matrix (n, n) and the convective forces less the weight of distributed mass (n,)."""
+    """Return the mass matrix (n, n) and the convective forces less the weight of distributed mass (n,).
+
+    Parameters
+    ----------
+    layout : Layout
+        The model as arrays.
+    x, v : array, shape (n,)
+        Coordinates and their rates.
+    """
     mass, force = np.diag(layout.lumped), np.zeros(len(x))
     for group in layout.masses:
         blocks, values = per_element("mass", group.kind, "force", x[group.x], group.p, v[group.x])
@@ -67,7 +91,17 @@ def _rates(l: Array, sign: float) -> Array:
 
 
 def load(layout: Layout, x: Array, factor: float = 1.0) -> Array:
-    """Return the constant generalised forces on the coordinates, (n,): the given ones times a factor, and weight."""
+    """Return the constant generalised forces on the coordinates, (n,): the given ones times a factor, and weight.
+
+    Parameters
+    ----------
+    layout : Layout
+        The model as arrays.
+    x : array, shape (n,)
+        Coordinates.
+    factor : float
+        Of the given forces; the weight stays.
+    """
     total = factor * layout.loads + layout.weights
     for first, moment, torque in layout.moments:
         own = slice(first, first + 4)
@@ -90,7 +124,19 @@ class Variation:
 
 
 def vary(layout: Layout, x: Array, v: Array, a: Array, s: Array, factor: float = 1.0) -> Variation:
-    """Return how the equations vary about a state with accelerations a (n,) and stresses s (m,)."""
+    """Return how the equations vary about a state with accelerations a (n,) and stresses s (m,).
+
+    Parameters
+    ----------
+    layout : Layout
+        The model as arrays.
+    x, v, a : array, shape (n,)
+        Coordinates, rates, accelerations.
+    s : array, shape (m,)
+        Stresses.
+    factor : float
+        Of the given forces.
+    """
     m, n = len(layout.e_is), len(x)
     rates, by_x, by_v = np.zeros((m, n)), np.zeros((m, n)), np.zeros((m, n))
     forces_x, forces_v = np.zeros((n, n)), np.zeros((n, n))

@@ -31,7 +31,17 @@ def _gravity(d: Description, dimension: int) -> Array:
 
 
 def distributed_masses(d: Description, groups: list[Group], x_index: dict[Key, int]) -> list[Group]:
-    """Return distributed masses by kind, and rotors."""
+    """Return distributed masses by kind, and rotors.
+
+    Parameters
+    ----------
+    d : Description
+        What the file says.
+    groups : list of Group
+        The elements by kind.
+    x_index : dict
+        Index of a coordinate by (node, component).
+    """
     masses = []
     for group in groups:
         mass = KINDS[group.kind].mass
@@ -56,7 +66,17 @@ def distributed_masses(d: Description, groups: list[Group], x_index: dict[Key, i
 
 
 def lump(d: Description, groups: list[Group], lumped: Array, weights: Array) -> None:
-    """Put half of the mass of every element on its end positions."""
+    """Put half of the mass of every element on its end positions.
+
+    Parameters
+    ----------
+    d : Description
+        What the file says.
+    groups : list of Group
+        The elements by kind.
+    lumped, weights : array, shape (n,)
+        Diagonal of the mass matrix, and weight; both are added to.
+    """
     for group in groups:
         if KINDS[group.kind].mass is None:
             continue
@@ -75,7 +95,21 @@ def lump(d: Description, groups: list[Group], lumped: Array, weights: Array) -> 
 def springs(
     d: Description, e_index: dict[Key, int], groups: list[Group], constants: dict[int, Any], size: int
 ) -> Array:
-    """Return the matrix (size, size) from deformations to stresses, or from their rates."""
+    """Return the matrix (size, size) from deformations to stresses, or from their rates.
+
+    Parameters
+    ----------
+    d : Description
+        What the file says.
+    e_index : dict
+        Index of a deformation by (element, component).
+    groups : list of Group
+        The elements by kind.
+    constants : dict
+        Stiffness or damping by element.
+    size : int
+        The number of deformations.
+    """
     matrix = np.zeros((size, size))
     lengths = {
         k: p[0]
@@ -104,7 +138,15 @@ def springs(
 
 
 def point_masses(d: Description, x_index: dict[Key, int]) -> tuple[Array, Array]:
-    """Return the diagonal of point masses and their weight, (n,) each."""
+    """Return the diagonal of point masses and their weight, (n,) each.
+
+    Parameters
+    ----------
+    d : Description
+        What the file says.
+    x_index : dict
+        Index of a coordinate by (node, component).
+    """
     lumped, weights = np.zeros(len(x_index)), np.zeros(len(x_index))
     for node, values in d.masses.items():
         if d.nodes[node] != "o3":
@@ -117,7 +159,15 @@ def point_masses(d: Description, x_index: dict[Key, int]) -> tuple[Array, Array]
 
 
 def point_loads(d: Description, x_index: dict[Key, int]) -> tuple[Array, tuple[tuple[int, Array, Array], ...]]:
-    """Return constant generalised forces (n,), and moments on orientations in space."""
+    """Return constant generalised forces (n,), and moments on orientations in space.
+
+    Parameters
+    ----------
+    d : Description
+        What the file says.
+    x_index : dict
+        Index of a coordinate by (node, component).
+    """
     loads, moments = np.zeros(len(x_index)), []
     for node in sorted({*d.forces, *d.torques}):
         first, force = x_index[node, 1], d.forces.get(node, ())
@@ -130,7 +180,15 @@ def point_loads(d: Description, x_index: dict[Key, int]) -> tuple[Array, tuple[t
 
 
 def bending(d: Description, groups: list[Group]) -> tuple[Group, ...]:
-    """Return the beams whose deformations are corrected for bending and that have bending stiffness."""
+    """Return the beams whose deformations are corrected for bending and that have bending stiffness.
+
+    Parameters
+    ----------
+    d : Description
+        What the file says.
+    groups : list of Group
+        The elements by kind.
+    """
     found = []
     for group in groups:
         if group.kind not in {"BEAMNL", "PLBEAMNL"}:

@@ -204,7 +204,7 @@ class Spacar:
         }
 
     def run(self, times: Array | None = None, forces: Mapping[Key, float] | None = None) -> list[Motion]:
-        """Return the motion from the initial state, at the times of the file's TIMESTEP or at others, s."""
+        """Return the motion from the initial state under ``forces``, at ``times`` (k,), s (by default of TIMESTEP)."""
         d = self.description
         if times is None:
             times = np.linspace(0.0, d.duration, d.steps + 1) if d.steps else np.zeros(1)
@@ -221,7 +221,7 @@ class Spacar:
         return equilibrium(self.rows, replace(self.state(), v=np.zeros_like(self.layout.drawn)), factor)
 
     def frequencies(self, motion: Motion | None = None) -> tuple[Array, Array]:
-        """Return natural frequencies, rad/s, (q,), and modes (q, q), about an equilibrium (that under the loads)."""
+        """Return natural frequencies, rad/s, (q,), and modes (q, q), about a motion at rest (the equilibrium)."""
         return frequencies(self.rows, self.equilibrium() if motion is None else motion)
 
     def buckling(self) -> Buckling:
@@ -270,6 +270,13 @@ def read_text(text: str, where: str = "model", mass: str = "consistent") -> Spac
 
 def read(path: str | Path, mass: str = "consistent") -> Spacar:
     """Return the model that a file describes, in either dialect.
+
+    Parameters
+    ----------
+    path : str or Path
+        Of the file.
+    mass : str
+        ``consistent`` or ``lumped``: how the mass of beams is spread.
 
     Raises
     ------

@@ -33,16 +33,38 @@ class Placing:
         self.d = d
 
     def refuse(self, number: int, reason: str) -> InputError:
-        """Return the error that names file, line and element."""
+        """Return the error that names file, line and element.
+
+        Parameters
+        ----------
+        number : int
+            Of the element.
+        reason : str
+            What is wrong with it.
+        """
         e = self.d.elements[number]
         return InputError(f"{self.d.where}, line {e.line}: {e.kind} {number}: {reason}")
 
     def at(self, node: int) -> Array:
-        """Return the drawn coordinates of a node."""
+        """Return the drawn coordinates of a node.
+
+        Shape (2,) or (3,) for a position, (1,) or (4,) for an orientation.
+
+        Parameters
+        ----------
+        node : int
+        """
         return np.array(self.d.coordinates(node))
 
     def turn(self, node: int) -> Array:
-        """Return the drawn rotation matrix of an orientation."""
+        """Return the drawn rotation matrix of an orientation.
+
+        Shape (3, 3).
+
+        Parameters
+        ----------
+        node : int
+        """
         values = self.at(node)
         if values.size == 4:
             return rotation_matrix(values)
@@ -50,7 +72,17 @@ class Placing:
         return np.array([[c, -s], [s, c]])
 
     def line(self, number: int, a: int, b: int) -> tuple[float, Array]:
-        """Return length and direction between two positions."""
+        """Return length and direction between two positions.
+
+        The direction has the shape of the positions, (2,) or (3,).
+
+        Parameters
+        ----------
+        number : int
+            Of the element, for a message.
+        a, b : int
+            Nodes.
+        """
         away = self.at(b) - self.at(a)
         length = float(np.linalg.norm(away))
         if not length > 1e-12:
@@ -58,7 +90,16 @@ class Placing:
         return length, away / length
 
     def axes(self, number: int, axis: Array) -> Array:
-        """Return three perpendicular unit axes (rows), the first along an axis."""
+        """Return three perpendicular unit axes (rows), the first along an axis.
+
+        Shape (3, 3).
+
+        Parameters
+        ----------
+        number : int
+            Of the element, for a message.
+        axis : array, shape (3,)
+        """
         length = float(np.linalg.norm(axis))
         if not length > 1e-12:
             raise self.refuse(number, "its axis is zero")
@@ -71,7 +112,19 @@ class Placing:
         return np.stack([x, y, np.cross(x, y)])
 
     def beam_axes(self, number: int, e: Element, x: Array) -> Array:
-        """Return the axes of a beam's section (rows): along, and the given y axis made perpendicular."""
+        """Return the axes of a beam's section (rows): along, and the given y axis made perpendicular.
+
+        Shape (3, 3).
+
+        Parameters
+        ----------
+        number : int
+            Of the element, for a message.
+        e : Element
+            What the file says of it.
+        x : array, shape (3,)
+            Unit vector along the beam.
+        """
         # Without a given axis: the axis of the ground that is most perpendicular, y where there are several.
         order = np.array([1, 2, 0])
         plain = int(order[np.argmin(np.round(abs(x[order]), 9))])
@@ -83,7 +136,15 @@ class Placing:
         return np.stack([x, y, np.cross(x, y)])
 
     def parameters(self, number: int) -> Array:
-        """Return the parameters of an element, as its kind wants them."""
+        """Return the parameters of an element, as its kind wants them.
+
+        Shape (p,), p by the kind.
+
+        Parameters
+        ----------
+        number : int
+            Of the element.
+        """
         e = self.d.elements[number]
         n, kind = e.nodes, e.kind
         if kind in {"BEAM", "BEAMNL"}:
@@ -102,7 +163,17 @@ class Placing:
         return self.joint(number, e)
 
     def joint(self, number: int, e: Element) -> Array:
-        """Return the parameters of a hinge, bearing or wheel."""
+        """Return the parameters of a hinge, bearing or wheel.
+
+        Shape (p,), p by the kind.
+
+        Parameters
+        ----------
+        number : int
+            Of the element.
+        e : Element
+            What the file says of it.
+        """
         n = e.nodes
         if e.kind == "PLBEAR":
             axis = np.array(e.axis or (1.0, 0.0))
@@ -122,7 +193,17 @@ class Placing:
         return np.concatenate([turns, axes @ (self.at(n[2]) - self.at(n[0]))])
 
     def wheel(self, number: int, e: Element) -> Array:
-        """Return the parameters of a wheel, which must be drawn on the ground."""
+        """Return the parameters of a wheel, which must be drawn on the ground.
+
+        Shape (p,), p by the kind.
+
+        Parameters
+        ----------
+        number : int
+            Of the element.
+        e : Element
+            What the file says of it.
+        """
         hub, contact = self.at(e.nodes[0]), self.at(e.nodes[2])
         radius = self.line(number, e.nodes[0], e.nodes[2])[0]
         if e.kind == "PLWHEEL":

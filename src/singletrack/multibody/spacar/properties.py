@@ -29,7 +29,13 @@ MOST_STEPS = 100_000
 
 
 def add_mass(reader: Reader) -> None:
-    """MASS, XM: mass of a position, moments of inertia of an orientation."""
+    """MASS, XM: mass of a position, moments of inertia of an orientation.
+
+    Parameters
+    ----------
+    reader : Reader
+        At the statement; what it says is put into its description.
+    """
     d = reader.description
     reader.count(2, 7, "a node and its mass or moments of inertia")
     node, values = reader.node(), reader.numbers[1:]
@@ -45,7 +51,13 @@ def add_mass(reader: Reader) -> None:
 
 
 def add_line_mass(reader: Reader) -> None:
-    """EMASS, EM: mass per length of a beam or truss."""
+    """EMASS, EM: mass per length of a beam or truss.
+
+    Parameters
+    ----------
+    reader : Reader
+        At the statement; what it says is put into its description.
+    """
     d = reader.description
     reader.count(2, 3, "an element, its mass per length and, for a beam in space, its moment of inertia per length")
     number = reader.element()
@@ -59,7 +71,13 @@ def add_line_mass(reader: Reader) -> None:
 
 
 def constants(name: str) -> Callable[[Reader], None]:
-    """Return a handler of stiffness and damping."""
+    """Return a handler of stiffness and damping.
+
+    Parameters
+    ----------
+    name : str
+        Of the table in the description: ``stiffness`` or ``damping``.
+    """
 
     def handler(reader: Reader) -> None:
         d = reader.description
@@ -78,7 +96,13 @@ def constants(name: str) -> Callable[[Reader], None]:
 
 
 def add_force(reader: Reader) -> None:
-    """FORCE, XF: a constant force or moment on a node."""
+    """FORCE, XF: a constant force or moment on a node.
+
+    Parameters
+    ----------
+    reader : Reader
+        At the statement; what it says is put into its description.
+    """
     d = reader.description
     node, values = reader.node(), reader.numbers[1:]
     kind, width = d.nodes[node], d.width(node)
@@ -92,7 +116,13 @@ def add_force(reader: Reader) -> None:
 
 
 def add_torque(reader: Reader) -> None:
-    """TORQUEL: a constant torque in the axes of a body."""
+    """TORQUEL: a constant torque in the axes of a body.
+
+    Parameters
+    ----------
+    reader : Reader
+        At the statement; what it says is put into its description.
+    """
     d = reader.description
     reader.count(4, 4, "an orientation in space and three components in the body's axes")
     node = reader.node()
@@ -102,13 +132,27 @@ def add_torque(reader: Reader) -> None:
 
 
 def set_gravity(reader: Reader) -> None:
-    """GRAVITY: the acceleration of falling."""
+    """GRAVITY: the acceleration of falling.
+
+    Parameters
+    ----------
+    reader : Reader
+        At the statement; what it says is put into its description.
+    """
     reader.count(2, 3, "two or three components")
     reader.description.gravity = reader.numbers
 
 
 def add_port(what: str, direction: str) -> Callable[[Reader], None]:
-    """Return a handler of inputs and outputs of the linear model."""
+    """Return a handler of inputs and outputs of the linear model.
+
+    Parameters
+    ----------
+    what : str
+        ``x`` for a coordinate, ``e`` for a deformation.
+    direction : str
+        ``inputs`` or ``outputs``.
+    """
 
     def handler(reader: Reader) -> None:
         d = reader.description
@@ -128,7 +172,13 @@ def add_port(what: str, direction: str) -> Callable[[Reader], None]:
 
 
 def set_steps(reader: Reader) -> None:
-    """TIMESTEP: steps and time of the simulation; the dialects have opposite orders."""
+    """TIMESTEP: steps and time of the simulation; the dialects have opposite orders.
+
+    Parameters
+    ----------
+    reader : Reader
+        At the statement; what it says is put into its description.
+    """
     reader.count(2, 2, "the number of steps and the time")
     steps, duration = reader.numbers if reader.source.dialect == "delft" else reader.numbers[::-1]
     order = "steps, then time" if reader.source.dialect == "delft" else "time, then steps"
@@ -140,7 +190,13 @@ def set_steps(reader: Reader) -> None:
 
 
 def set_tolerance(reader: Reader) -> None:
-    """EPSKIN, EPSINT, EPSIND, HMAX: tolerances and the longest step."""
+    """EPSKIN, EPSINT, EPSIND, HMAX: tolerances and the longest step.
+
+    Parameters
+    ----------
+    reader : Reader
+        At the statement; what it says is put into its description.
+    """
     reader.count(1, 1, "one number")
     if reader.numbers[0] <= 0.0:
         raise reader.refuse(f"found {reader.numbers[0]:g}, must be positive")

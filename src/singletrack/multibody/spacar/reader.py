@@ -37,17 +37,39 @@ class Reader:
         return InputError(f"{self.source.where}, line {self.statement.line}: {self.statement.keyword}: {reason}")
 
     def remark(self, text: str) -> None:
-        """Note what has no effect."""
+        """Note what has no effect.
+
+        Parameters
+        ----------
+        text : str
+            What, and why.
+        """
         place = f"{self.source.where}, line {self.statement.line}: {self.statement.keyword}"
         self.description.remarks.append(f"{place}: {text}")
 
     def count(self, least: int, most: int, wanted: str) -> None:
-        """Check how many numbers there are."""
+        """Check how many numbers there are.
+
+        Parameters
+        ----------
+        least, most : int
+            How many there may be.
+        wanted : str
+            What they are, for a message.
+        """
         if not least <= len(self.numbers) <= most:
             raise self.refuse(f"found {len(self.numbers)} numbers, must have {wanted}")
 
     def whole(self, index: int, what: str) -> int:
-        """Return a positive whole number."""
+        """Return a positive whole number.
+
+        Parameters
+        ----------
+        index : int
+            Which of the statement's numbers.
+        what : str
+            What it is, for a message.
+        """
         if index >= len(self.numbers):
             raise self.refuse(f"found {len(self.numbers)} numbers, must have more: {what} is missing")
         value = self.numbers[index]
@@ -63,14 +85,30 @@ class Reader:
         return number
 
     def node(self, index: int = 0) -> int:
-        """Return the number of a known node."""
+        """Return the number of a known node.
+
+        Parameters
+        ----------
+        index : int
+            Which of the statement's numbers it is.
+        """
         number = self.whole(index, "node")
         if number not in self.description.nodes:
             raise self.refuse(f"no element names node {number}")
         return number
 
     def component(self, index: int, most: int, what: str) -> int:
-        """Return a component of an element or node."""
+        """Return a component of an element or node.
+
+        Parameters
+        ----------
+        index : int
+            Which of the statement's numbers it is.
+        most : int
+            The number of components.
+        what : str
+            Of what, for a message.
+        """
         component = self.whole(index, "component")
         if component > most:
             raise self.refuse(f"{what} has {most} components, found {component}")
@@ -93,7 +131,14 @@ class Reader:
         return [(number, i) for i in given or range(1, most + 1)]
 
     def not_negative(self, values: tuple[float, ...], what: str) -> tuple[float, ...]:
-        """Check that none of the values is negative."""
+        """Check that none of the values is negative.
+
+        Parameters
+        ----------
+        values : tuple of float
+        what : str
+            What they are, for a message.
+        """
         if min(values) < 0.0:
             raise self.refuse(f"{what} is {min(values):g}, must not be negative")
         return values

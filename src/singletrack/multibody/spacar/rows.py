@@ -54,7 +54,13 @@ class Rows:
         return len(self.dynamic_x) + len(self.dynamic_e)
 
     def stack(self, of_e: Array, of_x: Array) -> Array:
-        """Return values of deformations (m, ...) and coordinates (n, ...) in the order of the rows."""
+        """Return values of deformations (m, ...) and coordinates (n, ...) in the order of the rows.
+
+        Parameters
+        ----------
+        of_e : array, shape (m, ...)
+        of_x : array, shape (n, ...)
+        """
         return np.concatenate(
             [
                 of_e[self.constraints],
@@ -70,7 +76,15 @@ class Rows:
         return self.stack(rows, np.eye(rows.shape[1]))[:, self.free]
 
     def generalised(self, of_e: Array, of_x: Array) -> Array:
-        """Return values of the generalised coordinates, out of those of all deformations and coordinates."""
+        """Return values of the generalised coordinates, out of those of all deformations and coordinates.
+
+        Shape (q, ...).
+
+        Parameters
+        ----------
+        of_e : array, shape (m, ...)
+        of_x : array, shape (n, ...)
+        """
         return np.concatenate([of_x[self.dynamic_x], of_e[self.dynamic_e]])
 
     def names(self) -> tuple[str, ...]:
@@ -79,13 +93,29 @@ class Rows:
 
 
 def names(layout: Layout, x: Array, e: Array) -> tuple[str, ...]:
-    """Return names of coordinates and deformations by index."""
+    """Return names of coordinates and deformations by index.
+
+    Parameters
+    ----------
+    layout : Layout
+        The model as arrays.
+    x, e : array of int, shape (k,)
+        Indices, each of a k of its own.
+    """
     x_keys, e_keys = list(layout.x_index), list(layout.e_index)
     return (*(f"x {x_keys[i][0]} {x_keys[i][1]}" for i in x), *(f"e {e_keys[i][0]} {e_keys[i][1]}" for i in e))
 
 
 def names_of(layout: Layout, kind: str) -> tuple[str, ...]:
-    """Return the names of the coordinates and deformations of a kind, such as ``kinematic``."""
+    """Return the names of the coordinates and deformations of a kind, such as ``kinematic``.
+
+    Parameters
+    ----------
+    layout : Layout
+        The model as arrays.
+    kind : str
+        ``fixed``, ``calculated``, ``dynamic``, ``prescribed`` or ``kinematic``.
+    """
     return names(layout, np.flatnonzero(layout.x_is == kind), np.flatnonzero(layout.e_is == kind))
 
 
@@ -112,7 +142,12 @@ class Solver:
             raise ModelError(f"{rows.layout.description.where}: the mechanism is in a singular configuration")
 
     def solve(self, right: Array) -> Array:
-        """Return the coordinates' rates (n, ...) of what the rows shall be (u, ...)."""
+        """Return the coordinates' rates (n, ...) of what the rows shall be (u, ...).
+
+        Parameters
+        ----------
+        right : array, shape (u, ...)
+        """
         result = np.zeros((len(self.rows.layout.drawn), *right.shape[1:]))
         if self.factors is not None:
             result[self.rows.free] = _getrs(*self.factors, right)[0]
@@ -148,6 +183,13 @@ def solver_at(rows: Rows, of_all: Array) -> Solver:
 
     Where constraints are redundant and those chosen elsewhere have become a bad choice here, others are chosen.
 
+    Parameters
+    ----------
+    rows : Rows
+        Those chosen elsewhere.
+    of_all : array, shape (m, n)
+        The rows of all deformations at the configuration.
+
     Raises
     ------
     ModelError
@@ -163,6 +205,13 @@ def solver_at(rows: Rows, of_all: Array) -> Solver:
 
 def choose(layout: Layout, of_all: Array) -> Rows:
     """Return the rows that determine the motion, given the rows of all deformations in the drawing.
+
+    Parameters
+    ----------
+    layout : Layout
+        The model as arrays.
+    of_all : array, shape (m, n)
+        How the deformations vary with the coordinates.
 
     Raises
     ------

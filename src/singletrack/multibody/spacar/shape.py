@@ -18,7 +18,13 @@ __all__ = ["add_element", "draw", "initial_value", "line_freedom", "mark", "pair
 
 
 def add_element(reader: Reader) -> None:
-    """One of the elements, by its own keyword."""
+    """One of the elements, by its own keyword.
+
+    Parameters
+    ----------
+    reader : Reader
+        At the statement; what it says is put into its description.
+    """
     d, kind = reader.description, KINDS[reader.statement.keyword]
     nodes = len(kind.nodes)
     plain = 1 + nodes
@@ -47,7 +53,13 @@ def add_element(reader: Reader) -> None:
 
 
 def draw(reader: Reader) -> None:
-    """X, XY, XYZ, BETA, LAMBDA: where a node is drawn."""
+    """X, XY, XYZ, BETA, LAMBDA: where a node is drawn.
+
+    Parameters
+    ----------
+    reader : Reader
+        At the statement; what it says is put into its description.
+    """
     d = reader.description
     reader.count(2, 5, "a node and its coordinates")
     node = reader.node()
@@ -68,7 +80,15 @@ def draw(reader: Reader) -> None:
 
 
 def mark(what: str, freedom: str) -> Callable[[Reader], None]:
-    """Return a handler that says what coordinates (x) or deformations (e) are."""
+    """Return a handler that says what coordinates (x) or deformations (e) are.
+
+    Parameters
+    ----------
+    what : str
+        ``x`` or ``e``.
+    freedom : str
+        What the named ones become.
+    """
 
     def handler(reader: Reader) -> None:
         d = reader.description
@@ -84,7 +104,13 @@ def mark(what: str, freedom: str) -> Callable[[Reader], None]:
 
 
 def prescribe(what: str) -> Callable[[Reader], None]:
-    """Return a handler of INPUTX and INPUTE: marks, and with more numbers initial value, rate and acceleration."""
+    """Return a handler of INPUTX and INPUTE: marks, and with more numbers initial value, rate and acceleration.
+
+    Parameters
+    ----------
+    what : str
+        ``x`` or ``e``.
+    """
 
     def handler(reader: Reader) -> None:
         d = reader.description
@@ -110,7 +136,15 @@ def prescribe(what: str) -> Callable[[Reader], None]:
 
 
 def initial_value(what: str, order: int) -> Callable[[Reader], None]:
-    """Return a handler of XD, XDD, E, ED, EDD: an initial value, rate or acceleration."""
+    """Return a handler of XD, XDD, E, ED, EDD: an initial value, rate or acceleration.
+
+    Parameters
+    ----------
+    what : str
+        ``x`` or ``e``.
+    order : int
+        0 for the value, 1 for the rate, 2 for the acceleration.
+    """
 
     def handler(reader: Reader) -> None:
         d = reader.description
@@ -127,7 +161,13 @@ def initial_value(what: str, order: int) -> Callable[[Reader], None]:
 
 
 def pair_slip(reader: Reader) -> None:
-    """ENHC: a nonholonomic deformation and the kinematic coordinate that goes with it."""
+    """ENHC: a nonholonomic deformation and the kinematic coordinate that goes with it.
+
+    Parameters
+    ----------
+    reader : Reader
+        At the statement; what it says is put into its description.
+    """
     d = reader.description
     reader.count(4, 4, "element and component of the slip, then of its kinematic coordinate")
     number = reader.element()
@@ -143,6 +183,12 @@ def pair_slip(reader: Reader) -> None:
 
 
 def line_freedom(reader: Reader) -> None:
-    """LINE: a deformation that is a freedom of the linear model."""
+    """LINE: a deformation that is a freedom of the linear model.
+
+    Parameters
+    ----------
+    reader : Reader
+        At the statement; what it says is put into its description.
+    """
     d = reader.description
     d.more_freedoms += [key for key in reader.element_keys() if key not in d.more_freedoms]

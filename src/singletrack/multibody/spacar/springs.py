@@ -64,7 +64,15 @@ def _bent(kind: str, count: int) -> Mapped:
 
 
 def spring_stresses(layout: Layout, e: Array) -> Array:
-    """Return the stresses of springs (m,) of deformations (m,)."""
+    """Return the stresses of springs (m,) of deformations (m,).
+
+    Parameters
+    ----------
+    layout : Layout
+        The model as arrays.
+    e : array, shape (m,)
+        Deformations.
+    """
     stresses: Array = layout.elastic @ e
     for group in layout.bending:
         stresses[group.e] += _bent(group.kind, len(group.e))((e[group.e], group.p))[0][:, :, 0]
@@ -72,7 +80,15 @@ def spring_stresses(layout: Layout, e: Array) -> Array:
 
 
 def spring_tangent(layout: Layout, e: Array) -> Array:
-    """Return how the stresses of springs vary with the deformations, (m, m)."""
+    """Return how the stresses of springs vary with the deformations, (m, m).
+
+    Parameters
+    ----------
+    layout : Layout
+        The model as arrays.
+    e : array, shape (m,)
+        Deformations.
+    """
     tangent: Array = layout.elastic.copy()
     for group in layout.bending:
         blocks = _bent(group.kind, len(group.e))((e[group.e], group.p))[1]

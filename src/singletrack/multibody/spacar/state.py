@@ -64,13 +64,30 @@ def prescribed(layout: Layout, time: float, order: int) -> tuple[Array, Array]:
     """Return prescribed values (order 0), rates (1) or accelerations (2) of deformations (m,) and coordinates (n,).
 
     What is prescribed moves with constant acceleration: value + rate t + acceleration t^2 / 2.
+
+    Parameters
+    ----------
+    layout : Layout
+        The model as arrays.
+    time : float
+        t, in s.
+    order : int
+        Of the derivative by time.
     """
     weights = ((1.0, time, time**2 / 2), (0.0, 1.0, time), (0.0, 0.0, 1.0))[order]
     return np.dot(weights, layout.e_motion), np.dot(weights, layout.x_motion)
 
 
 def unwrapped(layout: Layout, e: Array, near: Array) -> Array:
-    """Return deformations whose angles are counted on so that they lie nearest to given ones."""
+    """Return deformations whose angles are counted on so that they lie nearest to given ones.
+
+    Parameters
+    ----------
+    layout : Layout
+        The model as arrays.
+    e, near : array, shape (m,)
+        Deformations, and those that they lie near.
+    """
     i = layout.angles
     result = e.copy()
     result[i] += TURN * np.round((near[i] - e[i]) / TURN)
@@ -146,7 +163,16 @@ def _worst(layout: Layout, index: Array, miss: Array) -> str:
 
 
 def rates(solver: Solver, time: float, generalised: Array) -> Array:
-    """Return the rates of all coordinates (n,) of generalised rates (q,)."""
+    """Return the rates of all coordinates (n,) of generalised rates (q,).
+
+    Parameters
+    ----------
+    solver : Solver
+        The chosen rows at the configuration.
+    time : float
+        For what is prescribed, s.
+    generalised : array, shape (q,)
+    """
     rows = solver.rows
     right = rows.stack(*prescribed(rows.layout, time, 1))
     if rows.freedoms:

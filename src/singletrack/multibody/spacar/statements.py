@@ -74,6 +74,13 @@ class Source:
 def parse(text: str, where: str = "model") -> Source:
     r"""Return the statements of a file.
 
+    Parameters
+    ----------
+    text : str
+        Of either dialect.
+    where : str
+        Its name in messages.
+
     Raises
     ------
     InputError
@@ -126,6 +133,13 @@ def _number(word: str, keyword: str, place: str) -> float:
 def write(source: Source) -> str:
     r"""Return a file as text that :func:`parse` reads back to the same statements.
 
+    Parameters
+    ----------
+    source : Source
+        As it was read.
+
+    Examples
+    --------
     >>> print(write(parse("plhinge 1 2 3\nend\ngravity 0 -9.81")), end="")
     PLHINGE 1 2 3
     END

@@ -42,6 +42,14 @@ def held(rows: Rows, state: State, factor: float = 1.0) -> tuple[Motion, Array]:
     """Return a state at rest, held where it is, and the generalised forces (q,) that hold it.
 
     Its stresses are those of springs and constraints; what holds the generalised coordinates is not among them.
+
+    Parameters
+    ----------
+    rows : Rows
+        The chosen constraints and generalised coordinates.
+    state : State
+    factor : float
+        Of the given forces.
     """
     layout = rows.layout
     still = replace(state, v=np.zeros_like(state.x))
@@ -147,6 +155,15 @@ def frequencies(rows: Rows, motion: Motion, factor: float = 1.0) -> tuple[Array,
     """Return natural frequencies, rad/s, (q,), sorted, and modes (q, q), one a column, about an equilibrium.
 
     An unstable mode has an imaginary frequency; it comes first, as a negative number.
+
+    Parameters
+    ----------
+    rows : Rows
+        The chosen constraints and generalised coordinates.
+    motion : Motion
+        At rest, in equilibrium.
+    factor : float
+        Of the given forces.
     """
     mass, stiffness = _stiffness(rows, motion, factor)
     try:

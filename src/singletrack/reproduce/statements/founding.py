@@ -26,7 +26,13 @@ __all__ = ["founding_statements"]
 
 
 def founding_statements(cases: dict[str, Case]) -> list[Statement]:
-    """Return all statements of the founding paper with what was computed for them."""
+    """Return all statements of the founding paper with what was computed for them.
+
+    Parameters
+    ----------
+    cases : dict
+        The computed cases by name.
+    """
     return [*_general(cases["stratos-rigid"]), *_numbers(cases), *leaned_statements(cases), *upright_statements(cases)]
 
 

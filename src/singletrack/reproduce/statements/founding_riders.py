@@ -21,7 +21,13 @@ __all__ = ["arm_direction", "frequency_changes", "frequency_statement", "leaned_
 
 
 def leaned_statements(cases: dict[str, Case]) -> list[Statement]:
-    """Return what section 3.1 says of the leaned rider."""
+    """Return what section 3.1 says of the leaned rider.
+
+    Parameters
+    ----------
+    cases : dict
+        What was computed, by name.
+    """
     return [*_leaned(cases), *_leaned_causes(cases), arm_direction(cases["stratos-leaned"], "3.1")]
 
 
@@ -74,7 +80,13 @@ def _leaned(cases: dict[str, Case]) -> list[Statement]:
 
 
 def frequency_changes(reference: np.ndarray, other: np.ndarray) -> np.ndarray:
-    """Return the relative changes (k,) of the weave frequency from 1 m/s on where both oscillate, roots (n, 4) each."""
+    """Return the relative changes (k,) of the weave frequency from 1 m/s on where both oscillate, roots (n, 4) each.
+
+    Parameters
+    ----------
+    reference, other : array, shape (n, 4)
+        Eigenvalues in 1/s, weave first.
+    """
     both = (reference[:, 0].imag > 0) & (other[:, 0].imag > 0) & (SPEEDS >= 1.0)
     change: np.ndarray = other[both, 0].imag / reference[both, 0].imag - 1
     return change
@@ -83,7 +95,22 @@ def frequency_changes(reference: np.ndarray, other: np.ndarray) -> np.ndarray:
 def frequency_statement(
     section: str, says: str, changes: np.ndarray, sign: int, note: str = "", *, paper: str = "founding"
 ) -> Statement:
-    """Return a statement that the weave frequency changes, by relative changes (n,), in the direction of ``sign``."""
+    """Return a statement that the weave frequency changes, by relative changes (n,), in the direction of ``sign``.
+
+    Parameters
+    ----------
+    section : str
+        Of the paper.
+    says : str
+        The statement in words.
+    changes : array, shape (n,)
+    sign : int
+        1 where the frequency rises, -1 where it falls.
+    note : str
+        What is to be said besides.
+    paper : str
+        Which of the two.
+    """
     agree = np.sign(changes) == sign
     found = f"{changes.min():+.1%} to {changes.max():+.1%} over 1 to 10 m/s"
     if not agree.all():
@@ -137,7 +164,17 @@ def _leaned_causes(cases: dict[str, Case]) -> list[Statement]:
 
 
 def arm_direction(case: Case, section: str, *, paper: str = "founding") -> Statement:
-    """Return what both papers say of the arms' direction: bars that come back turn them towards the steer axis."""
+    """Return what both papers say of the arms' direction: bars that come back turn them towards the steer axis.
+
+    Parameters
+    ----------
+    case : Case
+        What was computed.
+    section : str
+        Of the paper.
+    paper : str
+        Which of the two.
+    """
     _, axis = steer_axis(case.bicycle)
     rows = []
     for back in (-0.09, -0.03, 0.03, 0.09):
@@ -162,7 +199,13 @@ def arm_direction(case: Case, section: str, *, paper: str = "founding") -> State
 
 
 def upright_statements(cases: dict[str, Case]) -> list[Statement]:
-    """Return what section 3.2 says of the Browser with the upright rider."""
+    """Return what section 3.2 says of the Browser with the upright rider.
+
+    Parameters
+    ----------
+    cases : dict
+        What was computed, by name.
+    """
     case = cases["browser-upright"]
     roots, applies = case.modes.eigenvalues, case.modes.applies
     moving = SPEEDS > 0

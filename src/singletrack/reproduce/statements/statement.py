@@ -70,6 +70,22 @@ def number_statement(
     """Return the statement that something has a printed value, with the computed value in the same unit.
 
     The note is kept where the number does not hold.
+
+    Parameters
+    ----------
+    section : str
+        Of the paper.
+    what : str
+        What has the value.
+    printed : str
+        The value as printed, in ``unit``.
+    value : float
+        The computed one, in the same unit.
+    unit : str
+    note : str
+        Said where the number does not hold.
+    paper : str
+        Which of the two.
     """
     holds = printed_number_holds(printed, value)
     text = f"{what} = {printed} {unit}"
@@ -77,15 +93,32 @@ def number_statement(
 
 
 def m_22(model: LinearModel) -> float:
-    """Return M(2, 2) in kg m^2."""
+    """Return M(2, 2) in kg m^2.
+
+    Parameters
+    ----------
+    model : LinearModel
+    """
     return float(model.M[1, 1])
 
 
 def gk0_22(model: LinearModel) -> float:
-    """Return g K0(2, 2) in N m/rad."""
+    """Return g K0(2, 2) in N m/rad.
+
+    Parameters
+    ----------
+    model : LinearModel
+    """
     return float(model.gravity * model.K0[1, 1])
 
 
 def first_speed(speeds: np.ndarray, condition: np.ndarray) -> str:
-    """Return in words the first of the speeds at which a condition holds."""
+    """Return in words the first of the speeds at which a condition holds.
+
+    Parameters
+    ----------
+    speeds : array, shape (k,)
+        In m/s, ascending.
+    condition : array of bool, shape (k,)
+    """
     return f"{speeds[np.argmax(condition)]:.2f} m/s"
