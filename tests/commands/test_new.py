@@ -41,6 +41,7 @@ def filled(text: str, **entries: str) -> str:
 def test_options_give_a_file_that_reads_back(capsys, tmp_path):
     out = tmp_path / "mine.toml"
     assert main([*OPTIONS, "--name", "mine", "--front-frame-mass", "3 kg", "--with", "carrier", "-o", str(out)]) == 0
+    assert re.search(r"weave speed +[0-9.]+ ± [0-9.]+ m/s", capsys.readouterr().out)
     bicycle = load_bicycle(out)
     assert bicycle.name == "mine"
     assert bicycle.front_frame_mass == pytest.approx(3.0)

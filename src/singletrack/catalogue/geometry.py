@@ -20,6 +20,8 @@ __all__ = ["Geometry", "resolve"]
 
 #: A loaded tyre is lower by this share of its height (Berto's recommended drop).
 _TYRE_DROP = 0.15
+#: Share of the sample that may be no bicycle.
+_BROKEN = 0.01
 
 
 def resolve(sheet: Sheet, normal: Callable[[], np.ndarray]) -> Geometry:
@@ -50,8 +52,12 @@ def resolve(sheet: Sheet, normal: Callable[[], np.ndarray]) -> Geometry:
     if found.contradictions:
         raise InputError.of_all(found.contradictions)
     for name, values in found.values.items():
-        if not np.isfinite(values[0]):
-            raise InputError(f"{name}: no such triangle, the lengths given do not meet", parameters=[name])
+        broken = ~np.isfinite(values)
+        if broken[0] or broken.mean() > _BROKEN:
+            reason = (
+                "no such triangle, the lengths given do not meet" if broken[0] else "is too uncertain to be a bicycle's"
+            )
+            raise InputError(f"{name}: {reason}", parameters=[name])
     return found
 
 

@@ -12,11 +12,15 @@ from singletrack.errors import InputError
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-__all__ = ["Prior", "Weighing", "sample_masses"]
+__all__ = ["GRADE", "Prior", "Weighing", "sample_masses"]
 
+#: Relative standard deviation that all components of one bicycle share: built cheap and strong, or light.
+GRADE = 0.12
 #: Candidates drawn for one that is kept.
 _CANDIDATES = 12
-_FEWEST = 60
+_FEWEST = 25
+#: Standard deviations from its usual mass at which a weighing is odd, and refused.
+_ODD, _FARTHEST = 3.0, 6.0
 
 
 @dataclass(frozen=True)
@@ -27,7 +31,8 @@ class Prior:
     ----------
     names : tuple of str
     mean, own, common : array, shape (c,)
-        Mean, own standard deviation, and the one shared with the components of the same part, in kg.
+        Mean, own standard deviation, and the one shared with the components of the same part, in kg; all share
+        :data:`GRADE` besides.
     parts : tuple of str
         Which components share the common one.
     choices, kinds : tuple of str
@@ -49,7 +54,8 @@ class Prior:
         same = np.array([[a == b != "" for b in self.parts] for a in self.parts])
         shared = same * np.outer(self.common, self.common)
         alone = self.own**2 + np.where(np.diag(same), 0.0, self.common**2)
-        covariance: np.ndarray = np.add(shared, np.diag(alone))
+        grade = GRADE * self.mean
+        covariance: np.ndarray = shared + np.diag(alone) + np.outer(grade, grade)
         return covariance
 
 
@@ -110,9 +116,10 @@ def sample_masses(
         if weighing.mass is not None:
             told = f"{weighing.name} = {weighing.mass:.3f} kg is odd: its parts usually weigh "
             told += f"{usual[0]:.2f} +/- {usual[1]:.2f} kg (more is mounted? Say what and where, as loads)"
-            if effective < _FEWEST:
+            off = abs(weighing.mass - usual[0]) / usual[1]
+            if effective < _FEWEST or off > _FARTHEST:
                 raise InputError(told, parameters=[weighing.name], found=weighing.mass, allowed="a usual mass")
-            if abs(weighing.mass - usual[0]) > 3 * usual[1]:
+            if off > _ODD:
                 odd.append(told)
         steps = (np.arange(count) + random.random()) / count
         kept = np.searchsorted(np.cumsum(weight) / weight.sum(), steps).clip(max=len(weight) - 1)

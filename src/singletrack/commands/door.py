@@ -161,5 +161,6 @@ def run(arguments: list[str]) -> int:
     except typer.Abort:
         raise KeyboardInterrupt from None
     except _UsageError as error:
-        raise InputError(error.format_message()) from None
+        # The library puts the kind of Python's exception before its words.
+        raise InputError(error.format_message().replace(": Value error, ", ": ")) from None
     return 0

@@ -8,15 +8,18 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from singletrack.analysis.summary import measured_speeds
 from singletrack.body.oddities import warn_of_oddities
 from singletrack.catalogue import estimate, read_sheet, sheet_template
 from singletrack.catalogue.tables import entries
-from singletrack.commands.printing import deliver
+from singletrack.commands.printing import deliver, show
 from singletrack.commands.writing import check_output, text_of
 from singletrack.errors import InputError, SingletrackError
 from singletrack.files.source import read_text
 from singletrack.files.toml_keys import place_of_any
 from singletrack.files.toml_write import write_toml
+from singletrack.measuring.measurement import Measurement
+from singletrack.present.tables import critical_speeds_text
 
 if TYPE_CHECKING:
     from singletrack.catalogue import Estimate
@@ -66,6 +69,18 @@ def run(
     warn_of_oddities(made.bicycle)
     toml = output is None or output.suffix.lower() == ".toml"
     deliver(write_toml(made.bicycle, made.notes) if toml or output is None else text_of(made.bicycle, output), output)
+    if output is not None:
+        _show_speeds(made)
+
+
+def _show_speeds(made: Estimate) -> None:
+    """Print the critical speeds without rider, with deviations from the covariance."""
+    try:
+        speeds = measured_speeds(Measurement(made.bicycle, made.names, made.covariance, {}))
+    except SingletrackError as error:
+        show(f"no uncertainty of the critical speeds: {error}")
+    else:
+        show(critical_speeds_text(speeds.critical, speeds.speed_deviations))
 
 
 def _part(text: str) -> tuple[str, str]:
