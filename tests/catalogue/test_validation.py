@@ -31,7 +31,7 @@ def test_weave_speed_with_a_rigid_rider_within_its_uncertainty(case, name):
 
 def test_weave_speed_of_the_riderless_experiment(case):
     measured, estimated, deviation = weave_speeds(case("kooijman-2008"), None)
-    assert abs(measured - estimated) < 2 * deviation
+    assert abs(measured - estimated) < deviation
 
 
 def test_other_measured_bicycles(case):

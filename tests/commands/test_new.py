@@ -8,7 +8,8 @@ import sys
 import pytest
 
 from singletrack import load_bicycle
-from singletrack.catalogue import sheet_template
+from singletrack.catalogue import read_sheet, sheet_template
+from singletrack.catalogue.tables import entries
 from singletrack.commands import app as cli
 
 OPTIONS = [
@@ -64,9 +65,11 @@ def test_a_template_filled_in(capsys, tmp_path):
 
 
 def test_every_line_of_the_template_is_read():
-    text = re.sub(r"^# (?=[a-z_\[]+( = |\]))", "", sheet_template(), flags=re.MULTILINE)
-    assert "\n[[loads]]\n" in text
-    assert "\nhead_angle = " in text
+    text = re.sub(r"^# (?=[a-z_]+ = |\[)", "", sheet_template(), flags=re.MULTILINE)
+    sheet = read_sheet(text, "template.toml")
+    assert set(entries()) < set(sheet)
+    assert sheet["loads"][0]["name"] == "battery"
+    assert sheet["parts"] == {"saddle": "600 g"}
 
 
 @pytest.mark.parametrize(

@@ -111,8 +111,8 @@ def quantity_text(value: float, deviation: float | None, unit: str) -> str:
     --------
     >>> quantity_text(0.0563, 0.0017, "m")
     '"0.0563 +/- 0.0017 m"'
-    >>> quantity_text(0.3141592653589793, None, "rad"), quantity_text(0.068, None, "")
-    ('"18 deg"', '0.068')
+    >>> quantity_text(0.3490658503988659, None, "rad"), quantity_text(0.068, None, "")
+    ('"20 deg"', '0.068')
     """
     if not unit and deviation is None:
         return repr(value)
@@ -129,6 +129,7 @@ def _degrees(radians: float) -> str | None:
     """Return the shortest number of degrees that reads back as these radians, or None if there is none."""
     for digits in range(1, 18):
         text = f"{math.degrees(radians):.{digits}g}"
+        text = f"{float(text):.0f}" if "e+" in text else text  # 20, not 2e+01
         if parse_quantity(f"{text} deg", "rad").value == radians:
             return text
     return None
