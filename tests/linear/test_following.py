@@ -174,7 +174,7 @@ def test_a_torso_that_has_met_capsize_leaves_castering_its_name():
 
 @pytest.mark.parametrize(("spring", "damper"), [(100.0, 10.0), (110.0, 20.0), (128.0, 50.0)])
 def test_a_torso_that_has_met_capsize_leaves_weave_whole(spring, damper):
-    """Weave is the pair that grows with the speed, and capsize slow, whatever the torso does with it at riding speed."""
+    """Weave is the pair that grows with the speed, capsize is slow, whatever the torso does with it when riding."""
     model = coefficients(
         load_bicycle("stratos-2012"),
         load_rider("rider-a").replace(torso_width=0.40),
@@ -188,7 +188,7 @@ def test_a_torso_that_has_met_capsize_leaves_weave_whole(spring, damper):
     assert (np.abs(roots[:, 0].imag) > 1).all()
     grown = np.abs(roots[3] / roots[2])
     np.testing.assert_allclose(grown[:2], 2, rtol=0.15)
-    assert (np.abs(roots[2:, 2]) < 0.2).all()
+    assert (np.abs(roots[2:, 2]) < 1).all()
 
 
 def test_crossings_and_modes_have_the_same_names():
