@@ -145,6 +145,7 @@ def test_rounding_of_a_chart_is_no_contradiction():
         ({"wheel_size": 622}, "must be text"),
         ({"bar": "butterfly"}, "drop"),
         ({"head_angle": "700 deg"}, "at most 90 deg"),
+        ({"head_angle": "70 +/- 30 deg"}, "at most 5.7 deg"),
         ({"stack": "-1 m"}, "greater than zero"),
         ({"stack": "5 kg"}, "no length"),
         ({"stak": "0.6 m"}, "did you mean stack"),

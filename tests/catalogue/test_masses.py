@@ -159,6 +159,9 @@ def test_a_load_is_where_it_is_said_to_be():
         ({"with_parts": ["carrier"], "without_parts": ["carrier"]}, "both in"),
         ({"loads": [{"mass": 3}]}, "lacks x, z"),
         ({"loads": [{"mass": 3, "x": 0, "z": -1, "on": "roof"}]}, "unknown assembly"),
+        ({"loads": [{"mass": 3, "x": 0, "z": 0.8}]}, "heights are negative"),
+        ({"loads": [{"mass": 3, "x": 0, "z": "nan m"}]}, "heights are negative"),
+        ({"loads": [{"mass": 3, "x": 0, "z": -1, "length": -1}]}, "length = -1, must be from 0 to 5 m"),
         ({"loads": [{"mass": 0, "x": 0, "z": -1}]}, "greater than zero"),
     ],
 )

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from catalogue_cases import HIDDEN, table, weave_speeds
-from singletrack import load_rider
+from singletrack import catalogue, load_rider
 
 MEASURED = ("stratos", "browser", "rigid")
 OTHERS = ("kooijman-2008", "crescendo", "fisher", "pista", "yellow")
@@ -57,3 +57,33 @@ def test_the_table_of_the_docs_is_what_comes_out(case):
     for names in (("stratos", "browser"), ("rigid", "benchmark")):
         for line in table([case(name) for name in names]).splitlines():
             assert line in text, line
+
+
+def test_bicycles_drawn_from_the_table_itself_are_covered():
+    """Simulation-based calibration: designs of a sample, weighed and estimated again, lie within what is stated."""
+    frame = {
+        "head_angle": "70 deg",
+        "trail": 0.06,
+        "wheel_size": "37-622",
+        "wheel_base": 1.09,
+        "stack": 0.6,
+        "chain_stay_length": 0.45,
+        "bottom_bracket_drop": 0.06,
+        "fork_length": 0.41,
+        "seat_tube_length": 0.5,
+        "seat_tube_angle": "72 deg",
+        "saddle_height": 0.72,
+        "grip_x": 0.7,
+        "grip_height": 1.0,
+        "bar": "flat",
+    }
+    bodies = ("rear_frame_mass", "front_frame_mass", "rear_wheel_mass", "front_wheel_mass")
+    batch, count = catalogue.estimate(30, **frame).sample, 30
+    scores = []
+    for k in range(count):
+        truth = {name: float(np.asarray(getattr(batch, name))[k]) for name in (*bodies, *HIDDEN)}
+        own = catalogue.estimate(300, **frame, **{name: truth[name] for name in bodies}).bicycle
+        scores += [(truth[name] - getattr(own, name)) / own.standard_deviations[name] for name in HIDDEN]
+    assert 0.92 < (np.abs(scores) < 2).mean() < 0.99
+    assert np.std(scores) == pytest.approx(1.0, abs=0.15)
+    assert abs(np.mean(scores)) < 0.25

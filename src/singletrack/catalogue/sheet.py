@@ -12,7 +12,7 @@ from singletrack.errors import InputError, shown, unknown, unknown_name
 from singletrack.parameters.units import Quantity, parse_quantity
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
+    from collections.abc import Callable, Iterable, Mapping
 
 __all__ = ["Load", "Sheet", "tyre_size"]
 
@@ -22,6 +22,15 @@ _LOAD = {"mass": "kg", "x": "m", "z": "m", "length": "m", "width": "m", "height"
 _SIGNED = ("bar_rise", "bar_sweep", "saddle_setback", "stem_angle", "fork_offset", "trail", "steer_axis_tilt")
 _ZERO = ("spacers", "bottom_bracket_drop", "grip_x", "stem_length")
 _MOST = 1000
+#: The largest standard deviations, by unit: beyond, the designs of a sample are no bicycles.
+_WIDEST = {"m": (0.1, "0.1 m"), "rad": (0.1, "5.7 deg"), "kg": (10.0, "10 kg"), "m/s**2": (0.1, "0.1 m/s^2")}
+#: What places and sizes of a load must be.
+_PLACES: dict[str, tuple[Callable[[float], bool], str]] = {
+    "x": (lambda x: abs(x) <= _FAR, "within 5 m of the rear contact"),
+    "z": (lambda z: -_FAR <= z <= 0, "zero or less, at most 5 m up (z points down, heights are negative)"),
+    **dict.fromkeys(("length", "width", "height"), (lambda size: 0 <= size <= _FAR, "from 0 to 5 m")),
+}
+_FAR = 5.0
 _FRAMES = ("rear frame", "front frame")
 
 
@@ -167,6 +176,8 @@ def _quantity(name: str, found: object) -> Quantity:
         allowed = "greater than zero"
     elif entry.unit == "rad" and abs(value) > pi / 2:
         allowed = "at most 90 deg (a bare number is in radians)"
+    elif (quantity.deviation or 0.0) > _WIDEST[entry.unit][0]:
+        allowed = f"known better: a standard deviation of at most {_WIDEST[entry.unit][1]}"
     if allowed:
         raise InputError(f"{name} = {shown(found)}, must be {allowed}", parameters=[name], found=found, allowed=allowed)
     return quantity
@@ -207,6 +218,11 @@ def _load(found: Mapping[str, object]) -> Load:
         except InputError as error:
             raise error.of(key).at(f"load {name}") from None
     _positive(f"load {name}: mass", found["mass"])
+    for key, (fits, words) in _PLACES.items():
+        quantity = numbers[key]
+        if not fits(quantity.value) or (quantity.deviation or 0.0) > 1:
+            reason = f"load {name}: {key} = {shown(found[key])}, must be {words}, known to a metre at least"
+            raise InputError(reason, parameters=[key], found=found[key], allowed=words)
     size = (numbers["length"].value, numbers["width"].value, numbers["height"].value)
     return Load(name, str(on), numbers["mass"], numbers["x"], numbers["z"], size)
 
