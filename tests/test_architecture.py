@@ -6,6 +6,7 @@ import-linter keeps the layers; here is what it does not see.
 from __future__ import annotations
 
 import ast
+import re
 import statistics
 from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
@@ -140,3 +141,13 @@ def length_without_docstring(node: ast.FunctionDef | ast.AsyncFunctionDef) -> in
 def test_modules_are_short():
     lengths = [len(path.read_text(encoding="utf-8").splitlines()) for path in PATHS]
     assert statistics.median(lengths) < 150
+
+
+def test_the_page_on_the_house_names_every_room_and_only_what_is_there():
+    text = (Path(__file__).parent.parent / "docs" / "architecture.md").read_text(encoding="utf-8")
+    rooms = [path.name for path in SOURCE.iterdir() if path.is_dir() and path.name not in {"__pycache__", "data"}]
+    assert [room for room in rooms if f"`{room}/`" not in text] == []
+    named = [name for name in re.findall(r"`([a-z_/]+(?:/|\.py))`", text) if name.count("/") - name.endswith("/")]
+    there = [SOURCE, SOURCE / "multibody", SOURCE.parent.parent]
+    assert [name for name in named if not any((folder / name).exists() for folder in there)] == []
+    assert len(named) > 15

@@ -14,7 +14,7 @@ from singletrack.errors import InputError, OddityWarning, PostureError, Singletr
 from singletrack.version import __version__
 
 if TYPE_CHECKING:
-    from singletrack import spacar
+    from singletrack import catalogue, spacar
     from singletrack.body.fit import fit
     from singletrack.library import load_bicycle, load_rider
     from singletrack.parameters import Bicycle, Rider
@@ -31,6 +31,7 @@ __all__ = [
     "Rider",
     "SingletrackError",
     "__version__",
+    "catalogue",
     "coefficients",
     "fit",
     "load_bicycle",
@@ -52,7 +53,7 @@ _LAZY = {
     "turn": "singletrack.public.turning",
     "page": "singletrack.webpage",
 }
-_MODULES = ("spacar",)
+_MODULES = ("catalogue", "spacar")
 
 
 def __getattr__(name: str) -> Any:

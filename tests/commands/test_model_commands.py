@@ -154,6 +154,17 @@ BAD = {
     "unknown rider": (["coefficients", "stratos", "--rider", "rider-b"], ["rider-b", "rider-a"]),
     "unknown posture": (["coefficients", "stratos", "--posture", "sitting"], ["sitting", "rigid"]),
     "posture without rider": (["coefficients", "stratos", "--posture", "leaned"], ["leaned", "needs a rider"]),
+    "unknown engine": (["coefficients", "stratos", "--engine", "foo"], ["--engine': 'foo' is not one of"]),
+    "torso lean without rider": (["coefficients", "stratos", "--torso-lean"], ["needs a rider", "no torso lean"]),
+    "spring of a rider without one": (
+        ["coefficients", "stratos", "--spring", "hands=3 N/m"],
+        ["a spring or damper at hands needs a rider", "allowed without one: one at steer"],
+    ),
+    "standstill on tyres": (
+        ["eigenvalues", "stratos", "--tyres", "9000,500,0.1", "--speeds", "0,5"],
+        ["speeds: found 0 m/s", "greater than zero on tyres"],
+    ),
+    "no folder of a sweep": (["sweep", "--check", "."], [".: is not a finished sweep"]),
     "impossible inertia": (
         ["coefficients", "stratos", "--set", "front_frame_inertia_xz=0.2"],
         ["front_frame_inertia", "no body's"],

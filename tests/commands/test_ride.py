@@ -84,3 +84,8 @@ def test_what_cannot_be_is_said(run: Any, arguments: Any, message: str) -> None:
     assert code == 2
     assert out == ""
     assert message in err
+
+
+def test_progress_is_drawn_on_terminals_only(run: Any) -> None:
+    code, _, said = run("stratos", "--speed", "6", "--for", "0.1")
+    assert (code, said) == (0, "")

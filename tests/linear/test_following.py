@@ -172,6 +172,25 @@ def test_a_torso_that_has_met_capsize_leaves_castering_its_name():
     assert not found.applies[1:, [2, 5]].any()
 
 
+@pytest.mark.parametrize(("spring", "damper"), [(100.0, 10.0), (110.0, 20.0), (128.0, 50.0)])
+def test_a_torso_that_has_met_capsize_leaves_weave_whole(spring, damper):
+    """Weave is the pair that grows with the speed, capsize is slow, whatever the torso does with it when riding."""
+    model = coefficients(
+        load_bicycle("stratos-2012"),
+        load_rider("rider-a").replace(torso_width=0.40),
+        "leaned",
+        torso_lean=True,
+        springs={"torso lean": spring},
+        dampers={"torso lean": damper},
+    )
+    roots = modes(model, [8.0, 10.0, 30.0, 60.0]).eigenvalues
+    np.testing.assert_array_equal(roots[:, 0], roots[:, 1].conj())
+    assert (np.abs(roots[:, 0].imag) > 1).all()
+    grown = np.abs(roots[3] / roots[2])
+    np.testing.assert_allclose(grown[:2], 2, rtol=0.15)
+    assert (np.abs(roots[2:, 2]) < 1).all()
+
+
 def test_crossings_and_modes_have_the_same_names():
     for spring, damper in ((500.0, 30.0), (1e5, 100.0), (2000.0, 100.0)):
         model = with_torso(load_bicycle("stratos"), spring, damper)

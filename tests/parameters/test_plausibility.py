@@ -47,6 +47,11 @@ def test_odd_bicycles(changes, parameter, says):
     assert any(odd.parameter == parameter and says in str(odd) for odd in found), list(map(str, found))
 
 
+def test_a_product_of_inertia_may_be_about_zero():
+    bicycle = load_bicycle("stratos").replace(standard_deviations={"rear_frame_inertia_xz": 0.05})
+    assert oddities(bicycle) == ()
+
+
 def test_mass_fractions_that_do_not_sum_to_one():
     found = oddities(load_rider("rider-a").replace(torso_mass_fraction=0.41))
     assert "sum to 0.9, not to 1: the segments weigh 64.8 kg of 72 kg" in str(found[0])

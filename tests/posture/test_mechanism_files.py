@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from singletrack import InputError, PostureError, coefficients, load_bicycle, load_rider
+from singletrack.closed_form import coefficients as closed_form_coefficients
 from singletrack.library import shipped
 from singletrack.library.template import template
 from singletrack.posture import Options, load_posture, seat
@@ -193,3 +194,16 @@ def test_the_arms_of_moore_have_no_stable_speed_as_he_found():
     modes = found.modes([0.5, 3.0, 5.0, 8.0])
     assert (modes.eigenvalues[:, 0].real < 0).all()
     assert (modes.eigenvalues[:, 2].real > 0).all()
+
+
+@pytest.mark.parametrize("name", ["stratos", "browser"])
+def test_one_hand_steers_half_of_what_two_hands_steer(name):
+    """Both arms are mirror images and the equations are sums over bodies: the mean of no hand and of both."""
+    bicycle = load_bicycle(name)
+    one, none, both = (
+        closed_form_coefficients(bicycle, RIDER, Options.of(posture))
+        for posture in ("one-hand", "rigid", Options("upright", shoulder="abduction"))
+    )
+    for matrix in ("M", "C1", "K0", "K2"):
+        mean = (getattr(none, matrix) + getattr(both, matrix)) / 2
+        np.testing.assert_allclose(getattr(one, matrix), mean, rtol=1e-12, atol=1e-12)

@@ -79,6 +79,8 @@ def test_more_freedoms_and_many_designs():
     soft = coefficients(load_bicycle("stratos"), rider, "leaned", torso_lean=True, springs={"torso lean": 100.0})
     figure = single_figure(drawn(soft))
     assert_clear(figure)
+    words = " ".join(word for word, _ in words_of(figure))
+    assert all(mode in words for mode in soft.modes([5.0]).names)  # beside its curve or in the legend
     many = family(Design.of(load_bicycle("benchmark")), "trail", np.linspace(0.02, 0.1, 9))
     values = (many.values * 1e3).tolist()
     figure = overlay_figure([drawn(many.model[i], "") for i in range(9)], scale=("trail (mm)", values))
@@ -108,6 +110,15 @@ def test_a_fold_is_found_to_the_last_digits_and_drawn_as_one_curve():
     for value in found.folds:
         around = [critical_speeds(design.changed({"front_frame_x": value + d}).model()) for d in (-1e-8, 1e-8)]
         assert len(around[0].weave + around[0].capsize) != len(around[1].weave + around[1].capsize)
+
+
+def test_dashes_are_not_drawn_over_one_another():
+    figure = overlay_figure([drawn(shipped_model("stratos", None), "a"), drawn(shipped_model("browser", None), "b")])
+    real = figure.axes[0]
+    curves = [np.round(line.get_ydata().astype(float), 9) for line in real.lines if len(line.get_xdata()) > 2]
+    for one, other in itertools.combinations(curves, 2):
+        both = np.isfinite(one) & np.isfinite(other)
+        assert (one[both] == other[both]).mean() < 0.02 if both.any() else True
 
 
 @pytest.mark.parametrize("kind", ["png", "svg", "pdf"])

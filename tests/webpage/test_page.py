@@ -68,3 +68,18 @@ def test_it_is_saved_whole_and_shown_in_notebooks(tmp_path):
     assert made.save(tmp_path / "a.html").read_text(encoding="utf-8") == made.text
     assert made._repr_html_().startswith("<iframe srcdoc=")
     assert singletrack.page is page
+
+
+@pytest.mark.parametrize(
+    ("bicycles", "rider", "posture", "said"),
+    [
+        (["browser"], "rider-a", "uprite", "did you mean upright"),
+        (["browser"], "rider-a", "moore-2012", "unknown posture 'moore-2012'"),
+        (["browser"], None, "leaned", "needs a rider"),
+        (["browser", "browser"], None, None, "browser: two bicycles have this name"),
+    ],
+)
+def test_what_the_page_cannot_show_is_refused(bicycles, rider, posture, said):
+    riders = None if rider is None else load_rider(rider)
+    with pytest.raises(InputError, match=said):
+        page(*map(load_bicycle, bicycles), rider=riders, posture=posture)

@@ -113,8 +113,9 @@ class TyreModel:
         """
         v = np.atleast_1d(np.asarray(speeds, dtype=float))
         if not np.all(np.isfinite(v)) or np.any(v <= 0):
+            wrong = v[~(np.isfinite(v) & (v > 0))][0]
             raise InputError(
-                f"speeds = {speeds!r}, must be finite and greater than zero on tyres", parameters=("speeds",)
+                f"speeds: found {wrong:g} m/s, must be finite and greater than zero on tyres", parameters=("speeds",)
             )
         n, m = len(self.coordinates), len(self.states)
         A = np.zeros((len(v), m, m))

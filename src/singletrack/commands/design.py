@@ -17,7 +17,7 @@ from singletrack.analysis.pareto import Front, pareto_front, worth
 from singletrack.analysis.problem import Found, Keep, Problem
 from singletrack.analysis.quantities import quantity, quantity_unit
 from singletrack.analysis.search import search
-from singletrack.body.fit import elbow_angle
+from singletrack.body.fit import elbow_angle, fit
 from singletrack.commands.model_options import ModelOptions
 from singletrack.commands.options import BicycleArgument, JsonOption
 from singletrack.commands.printing import deliver, print_json, show
@@ -41,6 +41,7 @@ if TYPE_CHECKING:
 
 __all__ = ["run"]
 
+_SMOOTH = 1e-3  # of the aim, per range of a parameter: what is left of the gradient at an optimum
 _AIMS = "stable=LOW:HIGH, widest, widest=TOP, weave, effort=SPEED[,SPEED..], or matrices=FILE.json"
 
 
@@ -178,10 +179,18 @@ def _print(problem: Problem, best: Found, found: Sequence[Found]) -> None:
         one, two = (float(np.real(quantity(design, name))) * step.factor for design in (before, after))
         rows.append([name, f"{one:.5g}", f"{two:.5g}", f"{two - one:+.4g}", step.unit])
     show(rows_table(f"{before.title}: {problem.aim.name}", ("", "before", "after", "change", "unit"), rows))
+    angle = after.options.fit
+    if angle is not None and after.rider is not None:
+        leans = [np.degrees(float(fit(d.bicycle, after.rider, angle).forward_lean_angle)) for d in (before, after)]
+        show(
+            f"the rider leans as the grips ask: forward_lean_angle {leans[0]:.2f} deg before, {leans[1]:.2f} deg after"
+        )
     was = worth(problem, problem.aim, problem.start)
     same = sum(abs(one.value - best.value) < 1e-4 * max(1.0, abs(best.value)) for one in found)
     show(f"aim: {was:.4g} before, {best.value:.4g} after; {same} of {len(found)} searches end there")
-    show("what holds it back: " + ("; ".join(best.binding) or "nothing, it is an optimum within the bounds"))
+    show("what holds it back: " + ("; ".join(best.binding) or "none of the bounds and constraints"))
+    if best.feasible and best.stationary > _SMOOTH * max(1.0, abs(best.value)):
+        show("no smooth optimum: roots meet there, or beside it no such design can exist; try more --starts")
     if not best.feasible:
         show("no design keeps all constraints; this one is nearest")
     for word, design in (("before", before), ("after", after)):

@@ -31,10 +31,12 @@ COMMANDS = {
     "eigenvalues": "Print the eigenvalues at forward speeds, one column for each mode.",
     "critical-speeds": "Print weave and capsize speeds and the stable ranges.",
     "plot": "Draw eigenvalues over speed or a parameter, of one bicycle or several; or the map of where it is stable.",
+    "compare": "Put bicycles side by side: what differs, critical speeds, modes, handling, with uncertainties.",
     "sensitivity": "Rank parameters by what they do to critical speeds, eigenvalues or matrices; Sobol's indices.",
     "design": "Search a design by aim: bounds, constraints, several starts; the front of two aims.",
     "list": "List the bicycles and riders that come with the package.",
     "show": "Print everything that follows from a bicycle or rider, with a drawing.",
+    "new": "Make a bicycle from a geometry sheet and what was weighed, with uncertainties.",
     "template": "Print a commented parameter file to fill in.",
     "schema": "Print the JSON schema of a parameter file, for editors.",
     "convert": "Read a bicycle or rider in any format and write it in another.",
@@ -159,5 +161,6 @@ def run(arguments: list[str]) -> int:
     except typer.Abort:
         raise KeyboardInterrupt from None
     except _UsageError as error:
-        raise InputError(error.format_message()) from None
+        # The library puts the kind of Python's exception before its words.
+        raise InputError(error.format_message().replace(": Value error, ", ": ")) from None
     return 0

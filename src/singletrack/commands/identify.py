@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from dataclasses import replace
 from pathlib import Path
 from typing import Annotated, Any
@@ -13,9 +14,10 @@ from singletrack.commands.model import model_from
 from singletrack.commands.model_options import ModelOptions
 from singletrack.commands.options import JsonOption
 from singletrack.commands.printing import deliver, print_json, show
+from singletrack.commands.turn import number_of
 from singletrack.control import IdentifiedMode, combine_modes, identify_mode
 from singletrack.control.agreement import ModeAgreement, compare_modes
-from singletrack.errors import InputError
+from singletrack.errors import InputError, OddityWarning
 from singletrack.files.recordings import read_measured_set, read_recording
 from singletrack.files.source import read_text
 from singletrack.library.measured import MeasuredModes
@@ -40,7 +42,9 @@ def run(
     column: Annotated[str | None, typer.Option(metavar="NAME", help="Column of the signal.")] = None,
     start: Annotated[float | None, typer.Option(metavar="SECONDS", help="Use each record from here on.")] = None,
     bicycle: Annotated[str | None, typer.Option(metavar="BICYCLE", help="Predict with this bicycle.")] = None,
-    speed: Annotated[float | None, typer.Option(metavar="M/S", help="Forward speed of the records.")] = None,
+    speed: Annotated[
+        str | None, typer.Option(metavar="SPEED", help='Forward speed of the records in m/s, or "18 km/h".')
+    ] = None,
     plot: Annotated[Path | None, typer.Option(metavar="FILE", help="Draw points on curves: .png, .svg, .pdf.")] = None,
     json: JsonOption = False,
 ) -> None:
@@ -50,20 +54,31 @@ def run(
             raise InputError(f"{plot}: unknown suffix {plot.suffix!r}, must be one of {', '.join(_FIGURES)}")
         check_writable(plot)
     if files[0].suffix.lower() == ".json":
+        if (
+            bicycle is not None
+            or column is not None
+            or start is not None
+            or speed is not None
+            or options.answer is not None
+        ):
+            raise InputError(f"{files[0]}: a published set brings its own bicycle and speeds; give only the file")
         _published(files, plot, json)
         return
+    if plot is not None and (bicycle is None or speed is None):
+        raise InputError("--plot draws points on a model's curves: it needs --bicycle and --speed")
+    v = None if speed is None else number_of("--speed", speed, "m/s")
     single = [identify_mode(*_record(file, column), start, str(file)) for file in files]
     found = combine_modes(single)
     model = None if bicycle is None else model_from(bicycle, options).model
-    predicted = None if model is None or speed is None else _nearest(model, speed, found)
+    predicted = None if model is None or v is None else _nearest(model, v, found)
     if json:
         print_json(_as_dict(files, single, found, predicted))
     else:
         _print(files, single, found, predicted)
-    if plot is not None:
-        if model is None or speed is None:
-            raise InputError("--plot draws points on a model's curves: it needs --bicycle and --speed")
-        own = np.array([speed])
+    if model is not None and v is not None and predicted is None:
+        warnings.warn(OddityWarning(f"the model has no oscillation at {v:g} m/s to compare with"), stacklevel=2)
+    if plot is not None and model is not None and v is not None:
+        own = np.array([v])
         runs = MeasuredModes(str(bicycle), own, own, np.array([found.eigenvalue]))
         _draw(model, runs, f"{bicycle}: measured and computed", plot)
 
@@ -74,12 +89,12 @@ def _record(file: Path, column: str | None) -> tuple[np.ndarray, np.ndarray]:
     return read_recording(read_text(file), str(file), column)
 
 
-def _nearest(model: LinearModel, speed: float, found: IdentifiedMode) -> complex:
-    """Return the model's oscillation whose eigenvalue is the nearest."""
+def _nearest(model: LinearModel, speed: float, found: IdentifiedMode) -> complex | None:
+    """Return the model's oscillation whose eigenvalue is the nearest, if it has one."""
     roots = modes(model, speed).eigenvalues[0]
     roots = roots[roots.imag > 0]
     if not roots.size:
-        return complex("nan")
+        return None
     return complex(roots[np.argmin(np.abs(roots - found.eigenvalue))])
 
 

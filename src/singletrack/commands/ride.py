@@ -82,7 +82,8 @@ def run(
 
 def _with_progress(until: float, work: Callable[[Callable[[float], object]], Ride]) -> Ride:
     columns = (TextColumn("riding"), BarColumn(bar_width=24), TextColumn("{task.completed:.2f} s"))
-    with Progress(*columns, console=Terminal(stderr=True), transient=True) as bar:
+    console = Terminal(stderr=True)
+    with Progress(*columns, console=console, transient=True, disable=not console.is_terminal) as bar:
         task = bar.add_task("ride", total=until)
         return work(lambda t: bar.update(task, completed=t))
 
@@ -124,7 +125,8 @@ def _animation(found: Ride, title: str, suffix: str) -> bytes:
         raise InputError(f"the ride ended at {found.end_time:.3g} s: too short for an animation")
     parts = [line.part for line in found.lines]
     console = Terminal(stderr=True)
-    with Progress(TextColumn("drawing"), BarColumn(bar_width=24), console=console, transient=True) as bar:
+    columns, silent = (TextColumn("drawing"), BarColumn(bar_width=24)), not console.is_terminal
+    with Progress(*columns, console=console, transient=True, disable=silent) as bar:
         task = bar.add_task("draw", total=len(times))
         return animation_bytes(
             parts,

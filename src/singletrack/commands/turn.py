@@ -100,6 +100,7 @@ def _text(found: Turn) -> str:
         ("path radius", found.radius, "m"),
         ("lateral acceleration", found.lateral_acceleration, "m/s²"),
         ("yaw rate", found.yaw_rate, "rad/s"),
+        ("friction demanded", found.friction, ""),
     ]
     forces = [(f"{name}, on it", force) for name, force in found.wheel_forces.items()]
     forces += [(f"{name}, on the bar", force) for name, force in found.hand_forces.items()]

@@ -19,6 +19,8 @@ __all__ = ["FORMAT", "read_signal"]
 
 _NUMBER = re.compile(r"[+-]?(?:[0-9]++\.?[0-9]*+|\.[0-9]++)(?:[eE][+-]?[0-9]++)?")
 
+_MORE_COLUMNS = "; of more columns under names, `singletrack identify FILE --column NAME` takes one"
+
 
 def _recognises(clues: Clues) -> bool:
     return clues.suffix == ".csv" and not clues.equals + clues.colons
@@ -65,6 +67,7 @@ def read_signal(text: str, where: str) -> tuple[np.ndarray, np.ndarray]:
                 continue
             raise InputError(
                 f"{where}, line {number}: found {content[:60]!r}, must be two finite numbers: time in s, signal"
+                f"{_MORE_COLUMNS if heading else ''}"
             )
         rows.append(pair)
     if not rows:

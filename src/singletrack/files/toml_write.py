@@ -14,15 +14,22 @@ from singletrack.parameters.rider import Rider
 from singletrack.parameters.units import parse_quantity
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Mapping
 
     from singletrack.parameters.record import Parameter, Record
 
 __all__ = ["quantity_text", "unit_text", "write_toml"]
 
 
-def write_toml(record: Record) -> str:
+def write_toml(record: Record, notes: Mapping[str, str] | None = None) -> str:
     """Return a bicycle or a rider as a TOML file with units, standard deviations and a comment for each parameter.
+
+    Parameters
+    ----------
+    record : Bicycle or Rider
+        A single design.
+    notes : mapping of str to str, optional
+        Where parameters come from, by name: their comments go on with it.
 
     Raises
     ------
@@ -39,10 +46,10 @@ def write_toml(record: Record) -> str:
         raise InputError(f"{record.name or record.kind}: is a batch of shape {record.shape}, must be a single design")
     header = [f"kind = {_string(record.kind)}"]
     header += [f"{name} = {_string(getattr(record, name))}" for name in ("name", "description", "source")]
-    return "\n".join([*header, *_parameters(record), *_tables(record)]) + "\n"
+    return "\n".join([*header, *_parameters(record, notes or {}), *_tables(record)]) + "\n"
 
 
-def _parameters(record: Record) -> Iterator[str]:
+def _parameters(record: Record, notes: Mapping[str, str]) -> Iterator[str]:
     yield from ("", "[parameters]")
     values, deviations = record.values(), record.standard_deviations
     grouped = itertools.groupby(record.descriptions().items(), key=lambda item: item[1].group)
@@ -53,7 +60,7 @@ def _parameters(record: Record) -> Iterator[str]:
                 lines += _lean_angles(record, description)
             elif name in values:
                 text = quantity_text(float(values[name]), deviations.get(name), description.unit)
-                lines.append(f"{name} = {text} # {description.meaning}")
+                lines.append(f"{name} = {text} # {description.meaning}{f'; {notes[name]}' if name in notes else ''}")
         if lines and number:
             yield from ("", f"# {group}")
         yield from lines
@@ -104,8 +111,8 @@ def quantity_text(value: float, deviation: float | None, unit: str) -> str:
     --------
     >>> quantity_text(0.0563, 0.0017, "m")
     '"0.0563 +/- 0.0017 m"'
-    >>> quantity_text(0.3141592653589793, None, "rad"), quantity_text(0.068, None, "")
-    ('"18 deg"', '0.068')
+    >>> quantity_text(0.3490658503988659, None, "rad"), quantity_text(0.068, None, "")
+    ('"20 deg"', '0.068')
     """
     if not unit and deviation is None:
         return repr(value)
@@ -122,6 +129,7 @@ def _degrees(radians: float) -> str | None:
     """Return the shortest number of degrees that reads back as these radians, or None if there is none."""
     for digits in range(1, 18):
         text = f"{math.degrees(radians):.{digits}g}"
+        text = f"{float(text):.0f}" if "e+" in text else text  # 20, not 2e+01
         if parse_quantity(f"{text} deg", "rad").value == radians:
             return text
     return None

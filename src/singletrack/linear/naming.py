@@ -137,27 +137,7 @@ class _Path:
             upper = _through_meeting(lower, self.block[k], self.at_low[k], self.at_high[k])
             node_roots[design], node_columns[design] = self.at_high[k], upper
         columns = _carried(node_roots, node_columns, self.highest)
-        further = np.where(columns >= _FURTHER, columns, -1)
-        return _columns_of_four(self.highest, _weave_made_whole(self.highest, further))
-
-
-def _weave_made_whole(roots: np.ndarray, columns: np.ndarray) -> np.ndarray:
-    """Return columns (m, N), -1 for four, in which no further coordinate has half of the pair that is weave up there.
-
-    Roots are in the order of :func:`in_order`: real ones first. In exchange for its half the coordinate takes, of the
-    real ones of the four, that which is neither capsize nor castering: neither the smallest nor the greatest.
-    """
-    result = columns.copy()
-    whole = np.roll(roots, 1, axis=-1) == roots.conj()
-    pair = (roots.imag != 0) & whole & (np.arange(roots.shape[-1]) > 0)  # the second roots of pairs
-    first = np.roll(columns, 1, axis=-1)
-    for row, second in np.argwhere(pair & ((first < 0) != (columns < 0))):
-        real = np.flatnonzero((roots[row].imag == 0) & (columns[row] < 0))
-        if len(real) == 3:
-            half = second if columns[row, second] >= 0 else second - 1
-            result[row, real[np.argsort(abs(roots[row, real]))[1]]] = columns[row, half]
-            result[row, half] = -1
-    return result
+        return _columns_of_four(self.highest, np.where(columns >= _FURTHER, columns, -1))
 
 
 def _padded(values: np.ndarray, start: np.ndarray, count: np.ndarray) -> np.ndarray:
@@ -232,8 +212,10 @@ def _columns_by_parts(roots: np.ndarray, part: np.ndarray) -> tuple[np.ndarray, 
         pairs = np.where(whole[:, :, None], own, -9.0)
         reals = np.sort(np.where(roots.imag[:, :, None] == 0, own, -9.0), axis=1)
         best_pair, best_reals = pairs.max(axis=1), reals[:, -2:].mean(axis=1)
-        # One of its roots has met a root of another mode: half of a pair that is less its own than the real one.
-        best_mixed = np.where(reals[:, -1] > best_pair, (reals[:, -1] + best_pair) / 2, -9.0)
+        # One of its roots has met capsize: half of the slowest pair, beside which there is one that is weave.
+        slow, two_pairs = np.argmax(whole, axis=-1), whole.sum(axis=-1) > 1
+        mixed_allowed = two_pairs[:, None] & (reals[:, -1] > best_pair)
+        best_mixed = np.where(mixed_allowed, (reals[:, -1] + own[row, slow]) / 2, -9.0)
         which = np.argmax(np.maximum(np.maximum(best_pair, best_reals), best_mixed), axis=-1)
         first = np.argmax(pairs[row, :, which], axis=-1)
         real = np.where(roots.imag == 0, own[row, :, which], -99.0)
@@ -242,7 +224,7 @@ def _columns_by_parts(roots: np.ndarray, part: np.ndarray) -> tuple[np.ndarray, 
         pair = np.stack([first, np.minimum(first + 1, count - 1)], axis=-1)
         chosen = np.where(as_pair[:, None], pair, two_reals)
         better = np.maximum(best_pair, best_reals)[row, which]
-        mixed = np.stack([np.argmax(real, axis=-1), pair[:, 1]], axis=-1)
+        mixed = np.stack([np.argmax(real, axis=-1), np.minimum(slow + 1, count - 1)], axis=-1)
         chosen = np.where((best_mixed[row, which] > better)[:, None], mixed, chosen)
         columns[row[:, None], chosen] = _FURTHER + 2 * which[:, None] + [0, 1]
         waiting[row, which] = False

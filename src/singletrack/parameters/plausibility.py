@@ -156,10 +156,14 @@ def _angles(record: Record) -> Iterator[Oddity]:
 _ANGLES = ("steer_axis_tilt", "seat_tube_angle", "forward_lean_angle")
 
 
+#: Parameters of either sign, for which zero is a value like any other.
+_AROUND_ZERO = ("rear_frame_inertia_xz", "front_frame_inertia_xz", "handlebar_length", "handlebar_drop")
+
+
 def _deviations(record: Record) -> Iterator[Oddity]:
     for name, deviation in record.standard_deviations.items():
         value = getattr(record, name, None)
-        if value is not None and deviation > 0.5 * abs(float(value)) > 0:
+        if value is not None and name not in _AROUND_ZERO and deviation > 0.5 * abs(float(value)) > 0:
             text = f"{name} = {value:g} has a standard deviation of {deviation:g}, more than half of it"
             yield Oddity(name, text, float(deviation), "a standard deviation of less than half the value")
 

@@ -119,14 +119,15 @@ class Options:
 
     def require_rider(self) -> None:
         """Raise InputError if a rider is needed: there is none."""
-        for what, wanted in (
-            (f"posture {self.name}", self.posture != "rigid"),
-            ("torso lean", self.torso_lean),
-            ("fit", self.fit is not None),
-            *((f"a spring or damper at {name}", True) for name in (*self.springs, *self.dampers) if name != STEER),
+        sprung = [name for name in (*self.springs, *self.dampers) if name != STEER]
+        for what, wanted, allowed in (
+            (f"posture {self.name}", self.posture != "rigid", "rigid"),
+            ("torso lean", self.torso_lean, "no torso lean"),
+            ("fit", self.fit is not None, "no fit"),
+            *((f"a spring or damper at {name}", True, f"one at {STEER}") for name in sprung),
         ):
             if wanted:
-                raise InputError(f"{what} needs a rider; allowed without one: rigid")
+                raise InputError(f"{what} needs a rider; allowed without one: {allowed}")
 
 
 def _refuse_negative(what: str, value: Array, unit: str) -> None:

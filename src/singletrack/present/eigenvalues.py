@@ -45,7 +45,7 @@ def eigenvalue_figure(modes: Modes, critical: CriticalSpeeds, title: str, limit:
 
 def draw_eigenvalues(
     axes: Axes, modes: Modes, critical: CriticalSpeeds, limit: float = 10.0, unit: SpeedUnit = METRES
-) -> None:
+) -> list[str]:
     """Draw the eigenvalues of a single design on axes of any size.
 
     Parameters
@@ -55,6 +55,11 @@ def draw_eigenvalues(
         As for :func:`eigenvalue_figure`.
     unit : SpeedUnit
         Of the speed in the figure.
+
+    Returns
+    -------
+    list of str
+        Modes in view that no word names, for want of room.
     """
     v = modes.speeds * unit.factor
     ranges = [(low * unit.factor, high * unit.factor) for low, high in critical.stable_ranges]
@@ -74,7 +79,11 @@ def draw_eigenvalues(
     shown = [(max(low, float(v[0])), min(high, float(v[-1]))) for low, high in ranges]
     least = 0.06 * float(v[-1] - v[0])
     wide = [_stable_label(low, high, limit) for low, high in shown if high - low > least]
-    label_curves(axes, [*(curve for curve, _ in curves), Curve(v, 0.0 * v, "", "black"), *wide], marked)
+    left_out = label_curves(axes, [*(curve for curve, _ in curves), Curve(v, 0.0 * v, "", "black"), *wide], marked)
+    named = {curve.label.partition(" ")[2] for curve, _ in curves if curve.label and curve.label not in left_out}
+    shown = (np.abs(modes.eigenvalues.real) < limit).any(axis=0)
+    in_view = [name for name, seen in zip(modes.names, shown, strict=True) if seen]
+    return [name for name in dict.fromkeys(in_view) if name not in named]
 
 
 def _stable_label(low: float, high: float, limit: float) -> Curve:

@@ -33,7 +33,7 @@ _MOST_POINTS = 160
 _COVERS = -1.0
 
 
-def label_curves(axes: Axes, curves: list[Curve], vertical: list[float], size: float = 8.0) -> None:
+def label_curves(axes: Axes, curves: list[Curve], vertical: list[float], size: float = 8.0) -> list[str]:
     """Write each curve's label beside it, where it is farthest from all other curves, lines and labels.
 
     A label for which there is no room is left out.
@@ -47,6 +47,11 @@ def label_curves(axes: Axes, curves: list[Curve], vertical: list[float], size: f
         Positions of vertical lines, which labels keep away from.
     size : float
         Font size in points.
+
+    Returns
+    -------
+    list of str
+        The labels that were left out.
     """
     figure = axes.get_figure(root=True)
     assert figure is not None  # noqa: S101  # drawn axes belong to a figure
@@ -56,8 +61,10 @@ def label_curves(axes: Axes, curves: list[Curve], vertical: list[float], size: f
     lines = np.array([axes.transData.transform((x, 0.0))[0] for x in vertical])
     per_point = figure.dpi / 72
     taken: list[tuple[float, float, float, float]] = []
+    left_out: list[str] = []
     for index, curve in enumerate(curves):
         if not curve.label or len(points[index]) == 0:
+            left_out += [curve.label] if curve.label else []
             continue
         text = axes.text(0, 0, curve.label, color=curve.colour, fontsize=size, ha="center", va="center")
         half = np.asarray(text.get_window_extent().size) / 2 + 0.12 * size * per_point
@@ -68,10 +75,12 @@ def label_curves(axes: Axes, curves: list[Curve], vertical: list[float], size: f
         best = int(np.argmax(clearance))
         if clearance[best] < _COVERS:
             text.remove()  # no room: the colour has to say it
+            left_out.append(curve.label)
             continue
         x, y = axes.transData.inverted().transform(centres[best])
         text.set_position((float(x), float(y)))
         taken.append((*centres[best], *half))
+    return left_out
 
 
 def _pixels(axes: Axes, curve: Curve) -> np.ndarray:

@@ -102,13 +102,15 @@ def map_figure(
             ("capsize", critical.capsize_speeds, critical.capsize_modes),
         ):
             dashes = "-" if kind == "weave" else (0, (5, 1.5))
-            for x, y, mode in _branches(speeds * unit.factor, values, modes):
+            pieces = _branches(speeds * unit.factor, values, modes)
+            for x, y, mode in pieces:
                 names.append(mode)
                 colour = colour_of(mode, names)
                 axes.plot(x, y, color=colour, ls=dashes)
-                shown = x <= top * unit.factor
-                word = "" if names.count(mode) > 1 else f"{mode} speed"
-                curves.append(Curve(np.where(shown, x, np.nan), y, word, colour))
+                shown = np.where(x <= top * unit.factor, x, np.nan)
+                longest = max((other for *other, name in pieces if name == mode), key=lambda one: len(one[0]))
+                word = f"{mode} speed" if longest[0] is x else ""
+                curves.append(Curve(shown, y, word, colour))
         label_curves(axes, [*curves, *stable], [])
     return figure
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from singletrack.present.bands import add_bands
 from singletrack.present.eigenvalues import broken, draw_eigenvalues
-from singletrack.present.style import LINES, new_figure, style
+from singletrack.present.style import LINES, colour_of, new_figure, style
 from singletrack.present.words import METRES, SpeedUnit
 
 if TYPE_CHECKING:
@@ -70,7 +70,10 @@ def single_figure(
         figure = new_figure(width * MILLIMETRES, max(0.72 * width, 62.0) * MILLIMETRES)
         axes = figure.add_subplot()
         set_title(axes, title)
-        draw_eigenvalues(axes, drawn.modes, drawn.critical, limit, unit)
+        wordless = draw_eigenvalues(axes, drawn.modes, drawn.critical, limit, unit)
+        if wordless:
+            names = drawn.modes.names
+            add_legend(figure, wordless, [{"color": colour_of(name, names), "lw": 1.6} for name in wordless], width)
         if drawn.uncertainty is not None:
             add_bands(axes, drawn.uncertainty, unit=unit)
     return figure
@@ -197,7 +200,8 @@ def add_legend(figure: Figure, labels: Sequence[str], lines: Sequence[dict[str, 
 def _draw(real: Axes, imaginary: Axes, design: Drawn, look: dict[str, Any], unit: SpeedUnit) -> None:
     v, roots = design.modes.speeds * unit.factor, design.modes.eigenvalues
     for column in range(roots.shape[-1]):
-        real.plot(v, broken(roots, column), **look)
+        # The lower root of a pair lies on the upper one: drawn twice, dashes would fill each other's gaps.
+        real.plot(v, np.where(roots[:, column].imag < 0, np.nan, broken(roots, column)), **look)
         upper = np.where(roots[:, column].imag > 0, roots[:, column].imag, np.nan)
         if np.isfinite(upper).any():
             imaginary.plot(v, upper, **look)

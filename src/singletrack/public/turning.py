@@ -73,9 +73,23 @@ class Turn:
         rest = [value for name, value in zip(self.names, self.eigenvalues, strict=True) if name != NEUTRAL]
         return bool(np.all(np.real(rest) < 0.0))
 
+    @property
+    def friction(self) -> float:
+        """The coefficient of friction that the turn demands: the largest horizontal over normal force of a wheel."""
+        return max(float(np.hypot(*force[:2]) / abs(force[2])) for force in self.wheel_forces.values())
+
     def to_dict(self) -> dict[str, Any]:
         """Return everything as numbers, lists and names, for JSON; a radius that is infinite as None."""
-        scalars = ("speed", "lean", "steer", "hand_torque", "path_speed", "lateral_acceleration", "yaw_rate")
+        scalars = (
+            "speed",
+            "lean",
+            "steer",
+            "hand_torque",
+            "path_speed",
+            "lateral_acceleration",
+            "yaw_rate",
+            "friction",
+        )
         return {
             **{name: float(getattr(self, name)) for name in scalars},
             "radius": self.radius if np.isfinite(self.radius) else None,

@@ -47,7 +47,7 @@ JOURNAL, DATA, LOCK = "journal.jsonl", "data.zarr", "lock"
 
 def partial_of(output: Path) -> Path:
     """Return the folder of the unfinished sweep of an output."""
-    return output.with_name(output.name + ".partial")
+    return output.parent / f"{output.name}.partial"  # also for ".", which has no name
 
 
 @dataclass

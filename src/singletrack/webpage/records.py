@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from singletrack.errors import InputError
+from singletrack.errors import InputError, unknown
 from singletrack.library import load_bicycle, load_rider, shipped
 from singletrack.parameters import Rider
 
@@ -17,6 +17,8 @@ __all__ = ["page_records"]
 
 #: What the page begins with, unless it is told.
 _FIRST = ("stratos", "rider-a", "leaned")
+#: Those whose equations the page holds.
+_POSTURES = ("rigid", "leaned", "upright")
 
 
 def page_records(
@@ -35,8 +37,9 @@ def page_records(
     Raises
     ------
     InputError
-        For a batch of designs.
+        For a batch of designs, two bicycles of one name, a posture that the page does not have.
     """
+    _check(bicycles, rider, posture)
     own_bicycles = _named([*bicycles, *(load_bicycle(name) for name in shipped("bicycle"))])
     own_riders = _named([*([] if rider is None else [rider]), *(load_rider(name) for name in shipped("rider"))])
     first = next(iter(own_bicycles)) if bicycles else _FIRST[0]
@@ -47,6 +50,17 @@ def page_records(
         "rider": next(iter(own_riders)) if rider is not None or not bicycles else "",
         "posture": posture or (_FIRST[2] if rider is not None or not bicycles else "rigid"),
     }
+
+
+def _check(bicycles: Sequence[Bicycle], rider: Rider | None, posture: str | None) -> None:
+    if posture is not None and posture not in _POSTURES:
+        raise unknown("posture", posture, _POSTURES, "page")
+    if posture not in (None, "rigid") and bicycles and rider is None:
+        raise InputError(f"posture {posture} needs a rider; allowed without one: rigid")
+    names = [bicycle.name for bicycle in bicycles]
+    for name in names:
+        if names.count(name) > 1:
+            raise InputError(f"{name or 'bicycle'}: two bicycles have this name; the page tells them apart by it")
 
 
 def _named(records: Sequence[Any]) -> dict[str, Any]:

@@ -24,6 +24,7 @@ SEATS = [
     Options("leaned", arms="bent"),
     Options("leaned", "axial"),
     Options("moore-2012"),
+    Options("one-hand"),
 ]
 SPRINGS, DAMPERS = {"torso lean": 100.0, "steer": 3.0}, {"torso lean": 10.0, "steer": 0.5}
 

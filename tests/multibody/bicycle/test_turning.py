@@ -152,6 +152,25 @@ def test_modes_keep_their_names_through_a_turn() -> None:
     assert abs(straight.hand_torque) < 1e-9
 
 
+@pytest.mark.parametrize("lean", [0.002, -0.002])
+def test_a_wide_turn_demands_friction_as_the_acceleration_does(lean: float) -> None:
+    """Both wheels share weight and side force alike, m g and m v^2 / R, up to what the spinning wheels take."""
+    found = turn(load_bicycle("benchmark"), speed=5.0, lean=lean)
+    assert found.friction == pytest.approx(abs(found.lateral_acceleration) / 9.81, rel=0.01)
+    assert turn(load_bicycle("benchmark"), speed=5.0, lean=0.0).friction < 1e-9
+
+
+@pytest.mark.parametrize("name", list(CASES))
+def test_one_wheel_demands_as_much_as_the_whole_or_more(name: str) -> None:
+    """The whole bicycle's force is horizontal over normal like tan of the angle at which it is pushed."""
+    bicycle, rider, posture = design(name)
+    found, mirrored = (turn(bicycle, rider, posture, speed=5.5, lean=lean) for lean in (0.3, -0.3))
+    whole = np.sum(list(found.wheel_forces.values()), axis=0)
+    assert found.friction >= abs(whole[1]) / whole[2] * (1 - 1e-9)
+    assert found.friction == pytest.approx(mirrored.friction, rel=1e-8)
+    assert found.to_dict()["friction"] == found.friction
+
+
 def test_nonsense_is_refused() -> None:
     model = bicycle_model(load_bicycle("benchmark"))
     for wrong, message in (

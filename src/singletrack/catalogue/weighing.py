@@ -1,0 +1,203 @@
+"""Which components a bicycle may have, and what was weighed of them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping  # part of the public signature
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from singletrack.catalogue.masses import Prior, Weighing
+from singletrack.catalogue.tables import Component, components
+from singletrack.errors import InputError
+
+if TYPE_CHECKING:
+    from singletrack.catalogue.geometry import Geometry
+    from singletrack.catalogue.sheet import Load, Sheet
+    from singletrack.parameters.units import Quantity
+
+__all__ = ["ASSEMBLIES", "Collection", "collect"]
+
+ASSEMBLIES = ("rear frame", "front frame", "rear wheel", "front wheel")
+#: The kinds of component by the sheet's word for the handlebar.
+BARS = {"flat": "straight bar", "riser": "straight bar", "city": "city bar", "drop": "drop bar"}
+#: Of the tyre that the table's masses are of: width and bead radius in m.
+_USUAL = (0.037, 0.311)
+
+
+@dataclass(frozen=True)
+class Collection:
+    """All c components that may be there, with what is known of their masses.
+
+    Attributes
+    ----------
+    prior : Prior
+    weighings : tuple of Weighing
+    assemblies, shapes : tuple of str
+    forms : tuple of mapping
+    places : array, shape (c, 3)
+        Standard deviations of places in m: forward, down, aside.
+    """
+
+    prior: Prior
+    weighings: tuple[Weighing, ...]
+    assemblies: tuple[str, ...]
+    shapes: tuple[str, ...]
+    forms: tuple[Mapping[str, Any], ...]
+    places: np.ndarray
+
+    def members(self, assembly: str) -> list[int]:
+        """Return the positions of the components of an ``assembly``."""
+        return [i for i, own in enumerate(self.assemblies) if own == assembly]
+
+
+def collect(sheet: Sheet, geometry: Geometry, points: Mapping[str, np.ndarray]) -> Collection:
+    """Return the components that a bicycle may have, and the weighings that a sheet tells.
+
+    Parameters
+    ----------
+    sheet : Sheet
+    geometry : Geometry
+    points : mapping of str to array, shape (n, 3)
+        As :func:`~singletrack.catalogue.points.points_of` makes them.
+
+    Raises
+    ------
+    InputError
+        If masses contradict each other, or nothing of a kind that is said to be there is left.
+    """
+    rows = [component for component in components() if _probability(component, sheet) > 0]
+    means = [_mass(component, geometry, points) for component in rows]
+    loads = [_of_load(load) for load in sheet.loads]
+    masses = [(mean, deviation) for mean, deviation in means] + [mass for _, mass in loads]
+    rows += [component for component, _ in loads]
+    prior = Prior(
+        names=tuple(row.name for row in rows),
+        mean=np.array([mean for mean, _ in masses]),
+        own=np.array([max(deviation, 1e-6) for _, deviation in masses]),
+        common=np.array([row.common * mean for row, (mean, _) in zip(rows, masses, strict=True)]),
+        parts=tuple(f"{row.assembly} {row.part}" if row.part else "" for row in rows),
+        choices=tuple(row.choice for row in rows),
+        kinds=tuple(row.kind for row in rows),
+        probability=np.array([_probability(row, sheet) for row in rows]),
+    )
+    return Collection(
+        prior,
+        tuple(_weighings(sheet, rows)),
+        tuple(row.assembly for row in rows),
+        tuple(row.shape for row in rows),
+        tuple(row.form for row in rows),
+        np.array([(*row.place, 0.0)[:3] for row in rows]),
+    )
+
+
+def _probability(component: Component, sheet: Sheet) -> float:
+    """Return how probable a component is, given what is said to be there; impossible where another kind is."""
+    own = {name for name in (component.name, component.kind) if name}
+    if any(sheet.fitted.get(name) is False for name in own):
+        return 0.0
+    if component.choice:
+        rivals = {
+            name: other.kind
+            for other in components()
+            if other.choice == component.choice
+            for name in (other.name, other.kind)
+        }
+        chosen = {rivals[name] for name, there in sheet.fitted.items() if there and name in rivals}
+        if component.choice == "bar" and "bar" in sheet.texts:
+            chosen |= {BARS[sheet.texts["bar"]]}
+        if chosen:
+            return float(component.kind in chosen)
+        return component.probability
+    return 1.0 if sheet.fitted.get(component.name) else component.probability
+
+
+def _mass(component: Component, geometry: Geometry, points: Mapping[str, np.ndarray]) -> tuple[float, float]:
+    """Return a component's mass in kg with its own standard deviation, on this bicycle."""
+    if component.tube is not None:
+        diameter, wall, density = component.tube
+        start, end = (points[component.form[key]][0] for key in ("from", "to"))
+        metre = np.pi * (diameter - wall) * wall * density
+        mean = float(component.count * metre * np.linalg.norm(end - start))
+        return mean, 0.15 * mean
+    mean, deviation = component.mass or (0.0, 0.0)
+    if component.shape == "hoop" and component.assembly.endswith("wheel") and not component.choice:
+        end = component.assembly.partition(" ")[0]
+        width, bead = geometry.values[f"{end} tyre width"][0], geometry.values[f"{end} bead"][0]
+        size = 1.0 if component.form["to"][0] == "hub" else bead / _USUAL[1]
+        scale = float(size * (width / _USUAL[0]) ** component.form.get("width_power", 0.0))
+        return mean * scale, deviation * scale
+    return mean, deviation
+
+
+def _of_load(load: Load) -> tuple[Component, tuple[float, float]]:
+    deviation = load.mass.deviation or 0.0
+    form = {"at": "rear contact", "offset": (load.x.value, load.z.value), "size": load.size}
+    place = (load.x.deviation or 0.0, load.z.deviation or 0.0)
+    return Component(load.name, load.on, "lump", form, place=place), (load.mass.value, deviation)
+
+
+def _weighings(sheet: Sheet, rows: list[Component]) -> list[Weighing]:
+    """Return disjoint sets of components with their masses: parts first, then what is left of each assembly."""
+    taken: set[int] = set()
+    found: list[Weighing] = []
+    known = dict.fromkeys(ASSEMBLIES, 0.0)
+    for part, mass in sheet.parts.items():
+        members = [i for i, row in enumerate(rows) if part in (row.name, row.part) and i not in taken]
+        assemblies = {rows[i].assembly for i in members}
+        if len(assemblies) != 1:
+            reason = "was weighed twice, or is not there" if not assemblies else "is on both wheels: weigh the wheels"
+            raise InputError(f"mass of {part}: {reason}", parameters=["parts"])
+        _refuse_open_choice(part, members, rows)
+        taken |= set(members)
+        known[assemblies.pop()] += mass.value
+        found.append(Weighing(f"mass of {part}", np.array(members), mass.value, mass.deviation or 0.0))
+    rest: list[int] = []
+    weighed = 0.0
+    for assembly in ASSEMBLIES:
+        name = f"{assembly.replace(' ', '_')}_mass"
+        members = [i for i, row in enumerate(rows) if row.assembly == assembly and i not in taken]
+        whole = sheet.values.get(name)
+        if whole is None:
+            rest += members
+            weighed += known[assembly]
+        else:
+            weighed += whole.value
+            found.append(_left(name, members, whole, known[assembly]))
+    total = sheet.values.get("total_mass")
+    if not rest:
+        if total is not None and abs(total.value - weighed) > 0.05 + 3 * (total.deviation or 0.0):
+            raise InputError(
+                f"total_mass contradicts itself: {total.value:.3f} kg (given), but {weighed:.3f} kg (its assemblies)",
+                parameters=["total_mass"],
+                found=(total.value, weighed),
+            )
+    elif total is None:
+        found.append(Weighing("masses", np.array(rest)))
+    else:
+        found.append(_left("total_mass", rest, total, weighed))
+    return found
+
+
+def _refuse_open_choice(part: str, members: list[int], rows: list[Component]) -> None:
+    """Raise InputError if what else is there depends on which kind of the part was weighed, and that is not said."""
+    for choice in {rows[i].choice for i in members} - {""}:
+        own = {i for i, row in enumerate(rows) if row.choice == choice}
+        kinds = sorted({rows[i].kind for i in own})
+        if own - set(members) and len(kinds) > 1:
+            raise InputError(
+                f"mass of {part}: of which kind? Say one of them in with_parts: {', '.join(kinds)}",
+                parameters=["parts", "with_parts"],
+                allowed=tuple(kinds),
+            )
+
+
+def _left(name: str, members: list[int], mass: Quantity, known: float) -> Weighing:
+    if mass.value <= known:
+        raise InputError(
+            f"{name} = {mass.value:.3f} kg (given) contradicts {known:.3f} kg (sum of what was weighed of it)",
+            parameters=[name],
+            found=(mass.value, known),
+        )
+    return Weighing(name, np.array(members), mass.value - known, mass.deviation or 0.0)

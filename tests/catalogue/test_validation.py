@@ -1,0 +1,89 @@
+"""Estimates from geometry and masses alone, against what was measured: inertias and centres of mass hidden."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from catalogue_cases import HIDDEN, table, weave_speeds
+from singletrack import catalogue, load_rider
+
+MEASURED = ("stratos", "browser", "rigid")
+OTHERS = ("kooijman-2008", "crescendo", "fisher", "pista", "yellow")
+DOCS = Path(__file__).parents[2] / "docs" / "catalogue.md"
+
+
+def test_two_stated_deviations_hold_19_of_20_parameters(case):
+    scores = np.array([score for name in MEASURED for score in case(name).scores().values()])
+    assert len(scores) == 3 * len(HIDDEN)
+    assert (abs(scores) < 2).mean() >= 0.95
+
+
+@pytest.mark.parametrize("name", MEASURED)
+def test_weave_speed_with_a_rigid_rider_within_its_uncertainty(case, name):
+    lean = {"stratos": 63.9}.get(name, 82.9)
+    rider = load_rider("rider-a").replace(forward_lean_angle=np.radians(lean))
+    measured, estimated, deviation = weave_speeds(case(name), rider)
+    assert abs(measured - estimated) < deviation
+
+
+def test_weave_speed_of_the_riderless_experiment(case):
+    measured, estimated, deviation = weave_speeds(case("kooijman-2008"), None)
+    assert abs(measured - estimated) < deviation
+
+
+def test_other_measured_bicycles(case):
+    """Looked at only after the table of components was done; docs/catalogue.md tells which fall outside, and why."""
+    scores = {(name, parameter): score for name in OTHERS for parameter, score in case(name).scores().items()}
+    # Moments about a diameter that no thin wheel has: half the one about the axle, and what a width of 25 mm adds.
+    impossible = {
+        (name, f"{end}_wheel_inertia_xx")
+        for name in OTHERS
+        for end in ("rear", "front")
+        if getattr(case(name).measured, f"{end}_wheel_inertia_xx")
+        > getattr(case(name).measured, f"{end}_wheel_inertia_yy") / 2
+        + getattr(case(name).measured, f"{end}_wheel_mass") * 0.025**2
+    }
+    assert len(impossible) >= 5
+    possible = np.array([score for key, score in scores.items() if key not in impossible])
+    assert (abs(possible) < 2).mean() > 0.8
+    assert np.median(abs(possible)) < 1.1
+
+
+def test_the_table_of_the_docs_is_what_comes_out(case):
+    text = DOCS.read_text(encoding="utf-8")
+    for names in (("stratos", "browser"), ("rigid", "benchmark")):
+        for line in table([case(name) for name in names]).splitlines():
+            assert line in text, line
+
+
+def test_bicycles_drawn_from_the_table_itself_are_covered():
+    """Simulation-based calibration: designs of a sample, weighed and estimated again, lie within what is stated."""
+    frame = {
+        "head_angle": "70 deg",
+        "trail": 0.06,
+        "wheel_size": "37-622",
+        "wheel_base": 1.09,
+        "stack": 0.6,
+        "chain_stay_length": 0.45,
+        "bottom_bracket_drop": 0.06,
+        "fork_length": 0.41,
+        "seat_tube_length": 0.5,
+        "seat_tube_angle": "72 deg",
+        "saddle_height": 0.72,
+        "grip_x": 0.7,
+        "grip_height": 1.0,
+        "bar": "flat",
+    }
+    bodies = ("rear_frame_mass", "front_frame_mass", "rear_wheel_mass", "front_wheel_mass")
+    batch, count = catalogue.estimate(30, **frame).sample, 30
+    scores = []
+    for k in range(count):
+        truth = {name: float(np.asarray(getattr(batch, name))[k]) for name in (*bodies, *HIDDEN)}
+        own = catalogue.estimate(300, **frame, **{name: truth[name] for name in bodies}).bicycle
+        scores += [(truth[name] - getattr(own, name)) / own.standard_deviations[name] for name in HIDDEN]
+    assert 0.92 < (np.abs(scores) < 2).mean() < 0.99
+    assert np.std(scores) == pytest.approx(1.0, abs=0.15)
+    assert abs(np.mean(scores)) < 0.25
