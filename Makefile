@@ -4,13 +4,17 @@ VENV ?= .venv
 BIN := $(VENV)/bin
 TOOLS ?= .tools
 
-.PHONY: reproduce test fuzz check format benchmark setup setup-dev lock audit kill mutants clean
+.PHONY: reproduce test coverage fuzz check format benchmark setup setup-dev lock audit kill mutants clean
 
 reproduce: setup
 	$(BIN)/singletrack reproduce
 
 test: setup-dev check
 	$(BIN)/python -m pytest -n auto
+
+# Lines and branches against a floor (pyproject.toml); tracing is slow, so that `make test` does without.
+coverage: setup-dev
+	$(BIN)/python -m pytest -n auto -m "not slow" --cov --cov-report=term
 
 fuzz: setup-dev
 	$(BIN)/python tests/fuzz/run.py --count 6000

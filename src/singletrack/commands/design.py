@@ -41,6 +41,7 @@ if TYPE_CHECKING:
 
 __all__ = ["run"]
 
+_SMOOTH = 1e-3  # of the aim, per range of a parameter: what is left of the gradient at an optimum
 _AIMS = "stable=LOW:HIGH, widest, widest=TOP, weave, effort=SPEED[,SPEED..], or matrices=FILE.json"
 
 
@@ -187,7 +188,9 @@ def _print(problem: Problem, best: Found, found: Sequence[Found]) -> None:
     was = worth(problem, problem.aim, problem.start)
     same = sum(abs(one.value - best.value) < 1e-4 * max(1.0, abs(best.value)) for one in found)
     show(f"aim: {was:.4g} before, {best.value:.4g} after; {same} of {len(found)} searches end there")
-    show("what holds it back: " + ("; ".join(best.binding) or "nothing, it is an optimum within the bounds"))
+    show("what holds it back: " + ("; ".join(best.binding) or "none of the bounds and constraints"))
+    if best.feasible and best.stationary > _SMOOTH * max(1.0, abs(best.value)):
+        show("no smooth optimum: roots meet there, or beside it no such design can exist; try more --starts")
     if not best.feasible:
         show("no design keeps all constraints; this one is nearest")
     for word, design in (("before", before), ("after", after)):

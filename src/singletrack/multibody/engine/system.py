@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any, TypeAlias
 
@@ -59,18 +59,18 @@ class System:
     ('swing',)
     """
 
-    bodies: tuple[Body, ...]
-    joints: tuple[Joint, ...]
-    closures: tuple[Closure, ...] = ()
-    wheels: tuple[Wheel, ...] = ()
-    springs: tuple[Spring, ...] = ()
-    inputs: tuple[Input, ...] = ()
-    sensors: tuple[Sensor, ...] = ()
+    bodies: Sequence[Body]
+    joints: Sequence[Joint]
+    closures: Sequence[Closure] = ()
+    wheels: Sequence[Wheel] = ()
+    springs: Sequence[Spring] = ()
+    inputs: Sequence[Input] = ()
+    sensors: Sequence[Sensor] = ()
     gravity: Scalar = 9.81
     down: Vector = (0.0, 0.0, 1.0)
     independent: tuple[str, ...] | None = None
-    limits: tuple[Limit | Reach, ...] = ()
-    ratios: tuple[Ratio, ...] = ()
+    limits: Sequence[Limit | Reach] = ()
+    ratios: Sequence[Ratio] = ()
     parameters: Mapping[str, float] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
