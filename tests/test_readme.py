@@ -6,6 +6,7 @@ import re
 import shlex
 import sys
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -36,7 +37,7 @@ def test_commands(command, monkeypatch, capsys, tmp_path):
 
 def test_python():
     block = "\n".join(re.findall(r"```python\n(.*?)```", README.read_text(), re.DOTALL))
-    names: dict[str, object] = {}
+    names: dict[str, Any] = {}
     exec(compile(block, str(README), "exec"), names)  # noqa: S102  # our own README
     assert names["trails"].M.shape == (1000, 2, 2)
     assert names["motion"].sizes["time"] == 501

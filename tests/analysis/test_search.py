@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pytest
 
@@ -80,11 +82,11 @@ def test_stable_between_is_stable_between():
 
 def test_all_starts_agree_and_known_ones_are_not_searched_again():
     problem = Problem(BENCHMARK, WidestRange(), BOUNDS)
-    told = []
+    told: list[Any] = []
     whole = search(problem, 3, seed=1, tell=told.append)
     assert len(told) == 3
     assert max(f.value for f in whole) - min(f.value for f in whole) < 1e-6
-    again = []
+    again: list[Any] = []
     rest = search(problem, 3, seed=1, known=told[:2], tell=again.append)
     assert len(again) == 1
     np.testing.assert_array_equal(rest[0].x, whole[0].x)

@@ -95,3 +95,9 @@ def test_fit_on_the_command_line(monkeypatch, capsys):
     assert "m too far" in run(*forward, "--fit", "--elbow-angle", "20 deg")[2]
     assert "there is no --fit" in run("--elbow-angle", "150 deg")[2]
     assert "--elbow-angle: '3 m'" in run("--fit", "--elbow-angle", "3 m")[2]
+
+
+@pytest.mark.parametrize("elbow", [float("nan"), "150 deg", True])
+def test_what_is_no_angle_is_refused(elbow):
+    with pytest.raises(InputError, match="elbow angle: found"):
+        fit(load_bicycle("stratos"), RIDER, elbow)

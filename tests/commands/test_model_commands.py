@@ -31,10 +31,10 @@ def run(monkeypatch, capsys):
 
 
 def test_installed_command_without_arguments_helps():
-    command = [Path(sys.executable).parent / "singletrack", "--help"]
+    command = [str(Path(sys.executable).parent / "singletrack"), "--help"]
     result = subprocess.run(command, capture_output=True, text=True, check=True)
-    for command in ("reproduce", "coefficients", "eigenvalues", "critical-speeds", "list", "show", "template"):
-        assert command in result.stdout
+    for name in ("reproduce", "coefficients", "eigenvalues", "critical-speeds", "list", "show", "template"):
+        assert name in result.stdout
 
 
 def test_coefficients_json_has_every_digit(run):

@@ -1,6 +1,7 @@
 """Where keys stand, and how deep they go: told without a parser, in one pass."""
 
 import tomllib
+from typing import Any
 
 import pytest
 from hypothesis import given
@@ -23,7 +24,8 @@ def written(name, bare):
 
 @given(st.lists(st.tuples(BARE | QUOTED, VALUES, st.sampled_from(["", "  ", "# c = 1\n", "\n\n"])), max_size=8))
 def test_every_key_is_found_on_its_line(rows):
-    lines, expected = [], {}
+    lines: list[str] = []
+    expected: dict[str, Any] = {}
     for name, value, before in rows:
         if name in expected:
             continue

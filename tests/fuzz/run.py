@@ -19,6 +19,7 @@ import traceback
 import warnings
 import zlib
 from pathlib import Path
+from typing import Any
 
 from documents import parse, render
 from mutators import BYTES, STRUCTURE
@@ -72,14 +73,14 @@ def trouble_with(path: Path, read) -> tuple[str, bool]:
     return wrong or (f"{spent:.1f} s" if spent > SECONDS else ""), was_read
 
 
-def fuzz(reader: str, count: int, seed: int, folder: Path, keep: Path | None) -> dict:
+def fuzz(reader: str, count: int, seed: int, folder: Path, keep: Path | None) -> dict[str, Any]:
     """Return how many of so many files were read and refused, and what was wrong with which."""
     suffix, _, text, read = READERS[reader]
     path = folder / f"fuzzed{suffix}"
     path.write_text(text, encoding="utf-8")
     read(path)  # the sound file is sound
     rng = random.Random(zlib.crc32(reader.encode()) + seed)
-    found = {"read": 0, "refused": 0, "wrong": []}
+    found: dict[str, Any] = {"read": 0, "refused": 0, "wrong": []}
     for number in range(count):
         data = make(rng, reader)
         path.write_bytes(data)

@@ -83,3 +83,12 @@ def test_what_the_page_cannot_show_is_refused(bicycles, rider, posture, said):
     riders = None if rider is None else load_rider(rider)
     with pytest.raises(InputError, match=said):
         page(*map(load_bicycle, bicycles), rider=riders, posture=posture)
+
+
+def test_names_in_place_of_records_are_refused():
+    with pytest.raises(InputError, match=r'type load_bicycle\("stratos"\)'):
+        page("stratos")  # type: ignore[arg-type]
+
+
+def test_a_prompt_shows_no_megabyte():
+    assert len(repr(page())) < 100

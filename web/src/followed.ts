@@ -15,6 +15,8 @@ const EDGES = [0, ...Array.from({ length: 16 }, (_, k) => [1, 1.5].map((x) => x 
 const RIDING = [3, 4, 6];
 /** Two speeds nearer than this, in units of the pencil, with another number of real roots: the meeting is between. */
 const NARROW = 1e-7;
+/** The part that a coordinate takes in a root that is not there. */
+const NONE = -9;
 
 interface Node {
   v: number;
@@ -229,25 +231,34 @@ function weaveGoesOn(columns: number[], pair: number[], next: readonly Complex[]
 function nameFurther(found: readonly Complex[], parts: number[][]): { columns: number[]; clear: number } {
   const columns = found.map(() => -1);
   const waiting = new Set(parts[0].slice(2).map((_, k) => k));
+  // A root that is mostly steer is castering.
+  const part = (k: number, which: number) => parts[k][2 + which] - parts[k][1];
   let clear = Infinity;
   while (waiting.size) {
-    let best = { share: -1, which: -1, places: [0, 1] };
-    for (const which of waiting) {
-      const share = (k: number) => (columns[k] < 0 ? parts[k][2 + which] : -1);
-      found.forEach((root, k) => {
-        if (root.im > 0 && share(k) > best.share) best = { share: share(k), which, places: [k, k + 1] };
-      });
-      const reals = found.map((_, k) => k).filter((k) => found[k].im === 0 && columns[k] < 0);
-      const top = reals.sort((a, b) => share(b) - share(a)).slice(0, 2);
-      const mean = top.length === 2 ? (share(top[0]) + share(top[1])) / 2 : -1;
-      if (mean > best.share) best = { share: mean, which, places: top.sort((a, b) => a - b) };
-    }
+    const choices = [...waiting].map((which) => ({ which, ...ownRoots(found, columns, (k) => part(k, which)) }));
+    const best = choices.reduce((a, b) => (b.share > a.share ? b : a));
     best.places.forEach((place, k) => (columns[place] = FURTHER + 2 * best.which + k));
     waiting.delete(best.which);
-    const rest = Math.max(0, ...found.map((_, k) => (columns[k] < 0 ? parts[k][2 + best.which] : 0)));
-    clear = Math.min(clear, best.places.reduce((sum, k) => sum + parts[k][2 + best.which], 0) / 2 - rest);
+    const rest = Math.max(0, ...found.map((_, k) => (columns[k] < 0 ? part(k, best.which) : 0)));
+    clear = Math.min(clear, best.places.reduce((sum, k) => sum + part(k, best.which), 0) / 2 - rest);
   }
   return { columns, clear };
+}
+
+/** Two roots, of those without a column, in which a coordinate takes most part: a pair, two real ones, or one of each. */
+function ownRoots(found: readonly Complex[], columns: number[], part: (k: number) => number): { share: number; places: number[] } {
+  const free = found.map((_, k) => k).filter((k) => columns[k] < 0);
+  const pairs = free.filter((k) => found[k].im > 0 && columns[k + 1] < 0);
+  const reals = free.filter((k) => found[k].im === 0).sort((a, b) => part(b) - part(a));
+  const pair = pairs.length ? pairs.reduce((a, b) => (part(b) > part(a) ? b : a)) : 0;
+  const asPair = pairs.length ? part(pair) : NONE;
+  const [first, second] = [0, 1].map((k) => (k < reals.length ? part(reals[k]) : NONE));
+  // One root has met capsize: half of the slowest pair, beside which there is one that is weave.
+  const asMixed = pairs.length > 1 && first > asPair ? (first + part(pairs[0])) / 2 : NONE;
+  const asReals = (first + second) / 2;
+  const share = Math.max(asPair, asReals, asMixed);
+  if (asMixed > Math.max(asPair, asReals)) return { share, places: [reals[0], pairs[0] + 1] };
+  return { share, places: asPair >= asReals ? [pair, pair + 1] : reals.slice(0, 2).sort((a, b) => a - b) };
 }
 
 /** Names the four roots that lean and steer have, in the order that lasts. */
@@ -260,7 +271,9 @@ function nameFour(found: readonly Complex[], columns: number[]): number[] {
     four.forEach((place, k) => (result[place] = order[k]));
     return result;
   }
-  const capsize = real.reduce((a, b) => (Math.abs(found[b].re) < Math.abs(found[a].re) ? b : a));
+  // Half of a pair, of which a further coordinate has the other half, is capsize.
+  const half = four.filter((k) => found[k].im !== 0 && !four.some((j) => same(found[j], conjugate(found[k]))));
+  const capsize = half.length ? half[0] : real.reduce((a, b) => (Math.abs(found[b].re) < Math.abs(found[a].re) ? b : a));
   const castering = capsize === four[0] ? four[1] : four[0];
   [result[capsize], result[castering]] = [CAPSIZE, CASTERING];
   four.filter((k) => k !== capsize && k !== castering).forEach((place, k) => (result[place] = k));
@@ -276,4 +289,8 @@ function upperFirst(named: Complex[]): Complex[] {
     if ((one.im < 0 && other.im > 0) || (bothReal && one.re > other.re)) [result[first], result[first + 1]] = [other, one];
   }
   return result;
+}
+
+function same(one: Complex, other: Complex): boolean {
+  return one.re === other.re && one.im === other.im;
 }

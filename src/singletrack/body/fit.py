@@ -99,8 +99,10 @@ def fitted(bicycle: Bicycle, rider: Rider, elbow: Array) -> tuple[Rider, tuple[F
     """
     require_geometry(bicycle)
     hip, shoulders, grip = _places(bicycle, rider)
+    if is_concrete(elbow) and np.asarray(elbow).dtype.kind not in "iufc":  # True is no angle either
+        raise InputError(f"elbow angle: found {elbow!r}, must be a number in rad (pi: stretched)")
     xp, (across, elbow, length) = as_arrays(grip - hip - shoulders, elbow, rider.torso_length)
-    if is_concrete(elbow) and bool(xp.any((xp.real(elbow) <= 0) | (xp.real(elbow) > pi))):
+    if is_concrete(elbow) and not bool(xp.all((xp.real(elbow) > 0) & (xp.real(elbow) <= pi))):
         raise InputError(f"elbow angle: found {elbow} rad, must be more than 0 and at most pi (180 deg: stretched)")
     _, (upper, lower) = as_arrays(rider.upper_arm_length, rider.lower_arm_length)
     reach = xp.sqrt(upper**2 + lower**2 - 2 * upper * lower * xp.cos(elbow))

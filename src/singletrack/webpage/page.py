@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 from singletrack.errors import InputError
 from singletrack.output import write_whole
+from singletrack.posture import require_records
 from singletrack.webpage.records import page_records
 
 if TYPE_CHECKING:
@@ -46,6 +47,9 @@ class Page:
         write_whole(target, self.text)
         return target
 
+    def __repr__(self) -> str:
+        return f"<Page of {len(self.text)} characters>"
+
     def _repr_html_(self) -> str:
         """Show the page in a notebook, in a frame of its own."""
         return f'<iframe srcdoc="{html.escape(self.text)}" style="width:100%;height:900px;border:0"></iframe>'
@@ -78,5 +82,7 @@ def page(*bicycles: Bicycle, rider: Rider | None = None, posture: str | None = N
     if _PLACE not in built:
         raise InputError("the shipped page has no place for records; build it again with `make page`")
     # In a script element only "<" could end the data: written as an escape it stays text, whatever a name says.
+    for bicycle in bicycles:
+        require_records(bicycle, rider)
     data = json.dumps(page_records(bicycles, rider, posture), ensure_ascii=False).replace("<", "\\u003c")
     return Page(built.replace(_PLACE, _PLACE.replace("></script>", f">{data}</script>"), 1))
