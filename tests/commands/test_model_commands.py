@@ -311,3 +311,14 @@ def test_no_traceback_reaches_a_user(run, monkeypatch):
     assert (code, out) == (1, "")
     assert "internal error, please report it: ZeroDivisionError: what nobody thought of" in err
     assert "Traceback" not in err
+
+
+def test_what_does_not_differ_has_no_empty_table(run):
+    _, out, _ = run("compare", "stratos", str(STRATOS_FILE))
+    assert out.startswith("no parameter differs")
+
+
+def test_a_stable_range_without_end_is_said_in_words(run):
+    _, out, _ = run("compare", "stratos", "browser", "--set", "trail=60")
+    assert "inf" not in out
+    assert "stable above " in out

@@ -52,7 +52,7 @@ def _common(xp: Any, arrays: Sequence[Array]) -> tuple[tuple[int, ...], Any]:
         own = getattr(array, "shape", ())
         if own != shape and own:
             alike, shape = alike and not shape, own
-        of_array = getattr(array, "dtype", kind)
+        of_array = getattr(array, "dtype", xp.complex128 if isinstance(array, complex) else kind)
         if of_array != kind:
             kind = xp.result_type(kind, of_array)
     return shape if alike else xp.broadcast_shapes(*(getattr(array, "shape", ()) for array in arrays)), kind

@@ -27,6 +27,7 @@ from singletrack.linear import critical_speeds, modes
 from singletrack.present.comparing import measure_rows
 from singletrack.present.plotting import Drawn, overlay_figure
 from singletrack.present.tables import rows_table
+from singletrack.present.words import range_text
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -68,10 +69,13 @@ def run(
 
 def _print(found: Comparison) -> None:
     difference = [f"{title} − {found.titles[0]}" for title in found.titles[1:]]
-    show(rows_table("parameters that differ", ("", *found.titles, *difference), measure_rows(found.parameters)))
+    if found.parameters:
+        show(rows_table("parameters that differ", ("", *found.titles, *difference), measure_rows(found.parameters)))
+    else:
+        show("no parameter differs")
     show(rows_table("what follows", ("", *found.titles, *difference), measure_rows(found.measures)))
     for title, critical in zip(found.titles, found.critical, strict=True):
-        ranges = "; ".join(f"{low:.3f} to {high:.3f} m/s" for low, high in critical.stable_ranges)
+        ranges = "; ".join(range_text(low, high) for low, high in critical.stable_ranges)
         show(f"{title}: stable {ranges or 'never'}")
     for source in dict.fromkeys(f"{m.name.split(' at ')[0]}: {m.source}" for m in found.measures if m.source):
         show(source)
