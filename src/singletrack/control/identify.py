@@ -204,15 +204,48 @@ def _covariance(t: np.ndarray, y: np.ndarray, sigma: float, omega: float, left: 
     jacobian = np.column_stack([t * oscillation, t * quadrature, columns])
     basis, triangle = np.linalg.qr(jacobian)
     coefficients = corrected_autoregression(left, basis)
-    correlated = scipy.linalg.toeplitz(autocorrelations(coefficients, len(t)))
+    covariance, both = _spread(coefficients, left, basis, triangle)
+    unsure = 2.0 / max(both - 5.0, 2.0) + _unsure_of_correlation(coefficients, left, basis, triangle)
+    return covariance, max(2.0 / unsure, 2.0)
+
+
+def _spread(
+    coefficients: np.ndarray, left: np.ndarray, basis: np.ndarray, triangle: np.ndarray
+) -> tuple[np.ndarray, float]:
+    """Return the covariance of σ and ω under an autoregression, and how many independent squares there are."""
+    correlated = scipy.linalg.toeplitz(autocorrelations(coefficients, len(left)))
     # Of residuals (1 - P) e with e ~ s² R: E|residuals|² = s² (n - trace(P R)); the fit takes out what it can.
     taken = basis.T @ correlated @ basis
-    worth = len(t) - float(np.trace(taken))
+    worth = len(left) - float(np.trace(taken))
     variance = float(left @ left) / max(worth, 1.0)
     inverse = np.linalg.inv(triangle)
     covariance = inverse @ taken @ inverse.T * variance
-    both = len(t) ** 2 / float(np.sum(correlated**2))  # Bartlett: how many independent squares there are
-    return covariance[:2, :2], max(both - 5.0, 2.0)
+    both = len(left) ** 2 / float(np.sum(correlated**2))  # Bartlett
+    return covariance[:2, :2], both
+
+
+def _unsure_of_correlation(
+    coefficients: np.ndarray, left: np.ndarray, basis: np.ndarray, triangle: np.ndarray
+) -> float:
+    """Return the relative variance of the variances that comes from not knowing the autoregression better.
+
+    Its coefficients have the covariance [1 - b²] / n, or [[1 - b², -a (1 + b)], [-a (1 + b), 1 - b²]] / n of two (Box
+    and Jenkins, *Time Series Analysis*, 7.2).
+    """
+    if not coefficients.size:
+        return 0.0
+    last = coefficients[-1]
+    own = (1.0 - last**2) * np.eye(len(coefficients))
+    if len(coefficients) == 2:
+        own[0, 1] = own[1, 0] = -coefficients[0] * (1.0 + last)
+    step = 1e-4
+
+    def logs(change: np.ndarray) -> np.ndarray:
+        found: np.ndarray = np.log(np.diag(_spread(coefficients + change, left, basis, triangle)[0]))
+        return found
+
+    slopes = np.array([(logs(-step * row) - logs(step * row)) / (2 * step) for row in np.eye(len(coefficients))])
+    return float(np.mean(np.einsum("ik,ij,jk->k", slopes, own, slopes))) / len(left)
 
 
 def combine_modes(found: Sequence[IdentifiedMode]) -> IdentifiedMode:
