@@ -100,7 +100,7 @@ def quantity(design: Design, name: str) -> Array:
     >>> from singletrack import load_bicycle
     >>> from singletrack.analysis.designs import Design
     >>> round(float(quantity(Design.of(load_bicycle("browser")), "front_clearance")), 3)
-    0.349
+    0.321
     """
     value = QUANTITIES[name][2](design.bicycle) if name in QUANTITIES else design.values()[name]
     result: Array = np.asarray(value)

@@ -129,7 +129,7 @@ def _degrees(radians: float) -> str | None:
     """Return the shortest number of degrees that reads back as these radians, or None if there is none."""
     for digits in range(1, 18):
         text = f"{math.degrees(radians):.{digits}g}"
-        text = f"{float(text):.0f}" if "e+" in text else text  # 20, not 2e+01
+        text = f"{float(text):.0f}" if "e+" in text and abs(radians) < 1e3 else text  # 20, not 2e+01
         if parse_quantity(f"{text} deg", "rad").value == radians:
             return text
     return None

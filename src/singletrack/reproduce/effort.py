@@ -48,12 +48,26 @@ EFFORT_HEADER = ("bicycle", "rider", *(f"{speed:g} m/s" for speed in _SHOWN))
 
 
 def efforts_of(cases: dict[str, Case], bicycle: str) -> dict[str, Effort]:
-    """Return what riding a bicycle costs from 0.5 to 10 m/s, by posture and input."""
+    """Return what riding a bicycle costs from 0.5 to 10 m/s, by posture and input.
+
+    Parameters
+    ----------
+    cases : dict
+        What was computed, by name.
+    bicycle : str
+        One of :data:`TITLES`.
+    """
     return {words: effort(cases[name].model, _RANGE, by) for name, by, words in _COMPARED[bicycle]}
 
 
 def effort_rows(cases: dict[str, Case]) -> list[list[str]]:
-    """Return the table: least energy in (N m)² s, and in brackets the largest torque in N m."""
+    """Return the table: least energy in (N m)² s, and in brackets the largest torque in N m.
+
+    Parameters
+    ----------
+    cases : dict
+        What was computed, by name.
+    """
     rows = []
     for bicycle, compared in _COMPARED.items():
         for name, by, words in compared:

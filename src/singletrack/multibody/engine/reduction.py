@@ -128,7 +128,7 @@ def reduced_expression(equations: Equations, parts: Partition, sizes: tuple[int,
 def pivot_growth(block: Array) -> float:
     """Return how much elimination in the order of a block (k, k) magnifies errors: its largest number over a pivot.
 
-    >>> pivot_growth(np.array([[1.0, 0.0], [0.0, 0.5]]))
+    >>> float(pivot_growth(np.array([[1.0, 0.0], [0.0, 0.5]])))
     2.0
     """
     a, least, most = block.copy(), np.inf, float(np.max(abs(block), initial=0.0))

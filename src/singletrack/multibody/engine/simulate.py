@@ -70,18 +70,15 @@ def simulate(
     ends
         Let it end where the machine stops being the one described (see the module's text); by default it does, if no
         terminal event says otherwise.
-    singular
-        In a singular position ``stop``, or ``pass`` it where the branch of the motion continues.
-    trouble
-        Where the simulation cannot go on ``raise``, or ``end`` with the results so far.
+    singular, trouble
+        In a singular position ``stop``, or ``pass`` it where the branch of the motion continues; where the simulation
+        cannot go on ``raise``, or ``end`` with the results so far.
     method, rtol, atol, max_step
         Integrator of scipy (DOP853 or RK45; Radau for stiff machines), tolerances of a step, longest step, s.
     most_steps
         How many steps may be taken, which bounds the time of computing.
-    feedback
-        State feedback with gains that are numbers, measured, bounded, delayed and held as it says.
-    progress
-        Called with the time reached, s, after every step.
+    feedback, progress
+        State feedback with gains that are numbers; what is called with the time reached, s, after every step.
 
     Returns
     -------
@@ -103,8 +100,7 @@ def simulate(
     (-1.0, 'all times reached')
     """
     times = _checked(times, method, singular, trouble)
-    driven = signals(state.model.system, inputs)
-    control = None
+    driven, control = signals(state.model.system, inputs), None
     if feedback is not None:
         control = Controller(feedback, state.model.system, driven, (float(times[0]), float(times[-1])))
         driven = control.signals
