@@ -35,24 +35,24 @@ benchmark: setup-dev
 setup: $(VENV)/ready
 setup-dev: $(VENV)/ready-dev
 
-# Every package is one of those whose hashes are listed; ours is built by tools among them, and not by others.
+# Every package is one of those whose hashes are listed, and no other is looked for (an extra of a listed one would be); ours is built by tools among them, and not by others.
 INSTALL = $(BIN)/python -m pip install --quiet --disable-pip-version-check
 
 $(VENV)/ready: pyproject.toml requirements/run.txt
 	$(PYTHON) -m venv $(VENV)
-	$(INSTALL) --require-hashes --requirement requirements/run.txt
+	$(INSTALL) --require-hashes --no-deps --requirement requirements/run.txt
 	$(INSTALL) --no-deps --no-build-isolation --editable .
 	touch $@
 
 $(VENV)/ready-dev: pyproject.toml requirements/dev.txt
 	$(PYTHON) -m venv $(VENV)
-	$(INSTALL) --require-hashes --requirement requirements/dev.txt
+	$(INSTALL) --require-hashes --no-deps --requirement requirements/dev.txt
 	$(INSTALL) --no-deps --no-build-isolation --editable .
 	touch $@ $(VENV)/ready
 
 $(TOOLS)/ready: requirements/tools.txt
 	$(PYTHON) -m venv $(TOOLS)
-	$(TOOLS)/bin/python -m pip install --quiet --disable-pip-version-check --require-hashes --requirement requirements/tools.txt
+	$(TOOLS)/bin/python -m pip install --quiet --disable-pip-version-check --require-hashes --no-deps --requirement requirements/tools.txt
 	touch $@
 
 # After a change of dependencies: pin the version in constraints.txt, then write the lists of hashes anew, for every
