@@ -126,3 +126,11 @@ def test_problems_that_are_none(bounds, words):
 
 def test_what_is_found_is_written():
     assert Found(np.array([0.5]), 1.0, feasible=True).to_dict()["x"] == [0.5]
+
+
+def test_front_clearance_is_that_of_three_circles():
+    browser = load_bicycle("browser")
+    height = browser.bottom_bracket_height
+    crank = (browser.chain_stay_length**2 - (browser.rear_wheel_radius - height) ** 2) ** 0.5
+    expected = np.hypot(browser.wheel_base - crank, browser.front_wheel_radius - height) - browser.front_wheel_radius
+    assert float(quantity(Design.of(browser), "front_clearance")) == pytest.approx(float(expected), rel=1e-12)

@@ -64,7 +64,10 @@ def _answered(model: LinearModel, options: ModelOptions) -> LinearModel:
     if isfinite(answer.limit) or answer.delay:
         _warn("--gains: a linear model takes the gains alone, without limit and delay; `singletrack ride` takes all")
     control = importlib.import_module("singletrack.control")  # a door: few commands need it
-    closed: LinearModel = control.closed_loop(model, answer.gains)
+    try:
+        closed: LinearModel = control.closed_loop(model, answer.gains)
+    except InputError as error:
+        raise error.at(str(options.gains or "--feedback")) from None
     return closed
 
 

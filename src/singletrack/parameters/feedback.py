@@ -15,6 +15,8 @@ Gains = Mapping[tuple[str, str], "float | Sequence[float]"]
 
 #: Shorter periods are no controller's, and make a simulation take for ever.
 _SHORTEST = 1e-4
+#: N m/rad or N m s/rad: no hand or motor is near it, and equations with more lose the bicycle in rounding.
+_GREATEST = 1e7
 
 
 @dataclass(frozen=True)
@@ -36,7 +38,8 @@ class Feedback:
     Raises
     ------
     InputError
-        For a value that is not finite, a limit that is not positive, a negative delay, a period below 0.1 ms.
+        For gains that are none, not finite or beyond 1e7, a limit that is not positive, a negative delay, a period
+        below 0.1 ms.
 
     Notes
     -----
@@ -55,8 +58,10 @@ class Feedback:
 
     def __post_init__(self) -> None:
         for (target, signal), gain in self.gains.items():
-            if not all(map(math.isfinite, coefficients_of(gain))):
-                raise InputError(f"gain from {signal} to {target} = {gain!r}, must be finite")
+            parts = coefficients_of(gain)
+            if not parts or not all(abs(part) <= _GREATEST for part in parts):  # NaN is not either
+                found = f"gain from {signal} to {target} = {gain!r}"
+                raise InputError(f"{found}, must be finite numbers from {-_GREATEST:g} to {_GREATEST:g}, one or more")
         for name, found, good, allowed in (
             ("limit", self.limit, self.limit > 0.0, "greater than zero"),
             ("delay", self.delay, 0.0 <= self.delay < math.inf, "finite, zero or greater"),

@@ -95,6 +95,8 @@ def test_unknown_names_and_gains_that_depend_on_speed_are_refused(gains, words):
         ({"delay": -0.1}, "delay = -0.1, must be finite, zero or greater"),
         ({"period": 1e-9}, "period = 1e-09, must be at least 0.0001 s"),
         ({"gains": {("steer torque", "lean"): float("nan")}}, "must be finite"),
+        ({"gains": {("steer torque", "lean"): 1e300}}, "must be finite numbers from"),
+        ({"gains": {("steer torque", "lean"): []}}, "one or more"),
     ],
 )
 def test_what_no_controller_has_is_refused(values, words):
