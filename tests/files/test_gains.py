@@ -66,7 +66,7 @@ def test_the_command_line_takes_gains_from_options_and_from_a_file(monkeypatch, 
     assert from_file.splitlines()[1:] == from_option.splitlines()[1:]
     # Weave by hand: the feedback is a term of the damping; its real part changes sign at the speed that is printed.
     model = coefficients(load_bicycle("benchmark"))
-    printed = float(re.search(r"weave speed +([0-9.]+) m/s", from_file)[1])
+    printed = float(re.findall(r"weave speed +([0-9.]+) m/s", from_file)[0])
 
     def growth(v):
         damping = v * np.asarray(model.C1) - [[0.0, 0.0], [10.0, 0.0]]
