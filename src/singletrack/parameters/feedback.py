@@ -60,8 +60,8 @@ class Feedback:
         for (target, signal), gain in self.gains.items():
             parts = coefficients_of(gain)
             if not parts or not all(abs(part) <= _GREATEST for part in parts):  # NaN is not either
-                found = f"gain from {signal} to {target} = {gain!r}"
-                raise InputError(f"{found}, must be finite numbers from {-_GREATEST:g} to {_GREATEST:g}, one or more")
+                what = f"gain from {signal} to {target} = {gain!r}"
+                raise InputError(f"{what}, must be finite numbers from {-_GREATEST:g} to {_GREATEST:g}, one or more")
         for name, found, good, allowed in (
             ("limit", self.limit, self.limit > 0.0, "greater than zero"),
             ("delay", self.delay, 0.0 <= self.delay < math.inf, "finite, zero or greater"),
