@@ -8,20 +8,17 @@ from typing import Annotated
 import numpy as np
 import typer
 
+from singletrack.commands.figures import check_figure, deliver_figure
 from singletrack.commands.model import model_from
 from singletrack.commands.model_options import ModelOptions
 from singletrack.commands.options import BicycleArgument, JsonOption, SpeedsOption
-from singletrack.commands.printing import deliver, print_json, show
+from singletrack.commands.printing import print_json, show
 from singletrack.control import control_summary
-from singletrack.errors import InputError
 from singletrack.files.speeds import parse_speeds
-from singletrack.output import check_writable
 from singletrack.present.control import angles_figure, control_tables, locus_figure
-from singletrack.present.style import figure_bytes
 
 __all__ = ["run"]
 
-_FIGURES = (".png", ".svg", ".pdf")
 #: Speeds of a root locus, so many that its dots join.
 _LOCUS = 600
 
@@ -43,7 +40,8 @@ def run(
     """Print where inputs lose modes, how well they reach them, and what riding costs."""
     values = parse_speeds(speeds)
     for file in (plot, locus):
-        _check(file)
+        if file is not None:
+            check_figure(file)
     made = model_from(bicycle, options)
     found = control_summary(made.model, values, inputs)
     if json:
@@ -51,16 +49,8 @@ def run(
     else:
         show(control_tables(found, made.title))
     if plot is not None:
-        deliver(figure_bytes(angles_figure(found, made.title), plot.suffix.lower().removeprefix(".")), plot)
+        deliver_figure(angles_figure(found, made.title), plot)
     if locus is not None:
         dense = np.linspace(values.min(), values.max(), _LOCUS)
         figure = locus_figure(dense, made.model.modes(dense).eigenvalues, made.title)
-        deliver(figure_bytes(figure, locus.suffix.lower().removeprefix(".")), locus)
-
-
-def _check(file: Path | None) -> None:
-    if file is None:
-        return
-    if file.suffix.lower() not in _FIGURES:
-        raise InputError(f"{file}: unknown suffix {file.suffix!r}, must be one of {', '.join(_FIGURES)}")
-    check_writable(file)
+        deliver_figure(figure, locus)

@@ -10,10 +10,11 @@ from typing import Annotated, Any
 import numpy as np
 import typer
 
+from singletrack.commands.figures import check_figure, deliver_figure
 from singletrack.commands.model import model_from
 from singletrack.commands.model_options import ModelOptions
 from singletrack.commands.options import JsonOption
-from singletrack.commands.printing import deliver, print_json, show
+from singletrack.commands.printing import print_json, show
 from singletrack.commands.turn import number_of
 from singletrack.control import IdentifiedMode, combine_modes, identify_mode
 from singletrack.control.agreement import ModeAgreement, compare_modes
@@ -23,15 +24,11 @@ from singletrack.files.source import read_text
 from singletrack.library.measured import MeasuredModes
 from singletrack.linear import critical_speeds, modes
 from singletrack.model import LinearModel
-from singletrack.output import check_writable
 from singletrack.parameters import Bicycle
 from singletrack.present.measured import measured_figure
-from singletrack.present.style import figure_bytes
 from singletrack.public import coefficients
 
 __all__ = ["run"]
-
-_FIGURES = (".png", ".svg", ".pdf")
 
 
 def run(
@@ -50,9 +47,7 @@ def run(
 ) -> None:
     """Find the eigenvalue of an oscillation in recorded rates, or compare a published set with its model."""
     if plot is not None:
-        if plot.suffix.lower() not in _FIGURES:
-            raise InputError(f"{plot}: unknown suffix {plot.suffix!r}, must be one of {', '.join(_FIGURES)}")
-        check_writable(plot)
+        check_figure(plot)
     if files[0].suffix.lower() == ".json":
         if (
             bicycle is not None
@@ -171,4 +166,4 @@ def _draw(model: LinearModel, runs: MeasuredModes, title: str, plot: Path) -> No
     speeds = np.linspace(0.0, max(10.0, 1.2 * float(runs.highest_speeds.max())), 501)
     plain = replace(model)
     figure = measured_figure(modes(plain, speeds), critical_speeds(plain), runs, title)
-    deliver(figure_bytes(figure, plot.suffix.lower().removeprefix(".")), plot)
+    deliver_figure(figure, plot)

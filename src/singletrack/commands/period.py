@@ -7,18 +7,15 @@ from typing import Annotated
 
 import typer
 
-from singletrack.commands.printing import deliver, show
+from singletrack.commands.figures import check_figure, deliver_figure
+from singletrack.commands.printing import show
 from singletrack.errors import InputError
 from singletrack.files.signals import read_signal
 from singletrack.files.source import read_text
 from singletrack.measuring.oscillation import fit_oscillation
-from singletrack.output import check_writable
 from singletrack.present.oscillation import oscillation_figure
-from singletrack.present.style import figure_bytes
 
 __all__ = ["run"]
-
-_FIGURES = (".png", ".svg", ".pdf")
 
 
 def run(
@@ -27,9 +24,7 @@ def run(
 ) -> None:
     """Fit a decaying oscillation to a recorded signal and print its period with its standard deviation."""
     if plot is not None:
-        if plot.suffix.lower() not in _FIGURES:
-            raise InputError(f"{plot}: unknown suffix {plot.suffix!r}, must be one of {', '.join(_FIGURES)}")
-        check_writable(plot)
+        check_figure(plot)
     if not file.exists():
         raise InputError(f"{file}: there is no such file")
     fit = fit_oscillation(*read_signal(read_text(file), str(file)), str(file))
@@ -39,4 +34,4 @@ def run(
     show(f"for the measurements' file: {fit.natural_period!r}+/-{fit.period_deviation!r}")
     if plot is not None:
         figure = oscillation_figure(fit, file.stem)
-        deliver(figure_bytes(figure, plot.suffix.lower().removeprefix(".")), plot)
+        deliver_figure(figure, plot)

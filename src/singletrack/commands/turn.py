@@ -9,13 +9,13 @@ from typing import TYPE_CHECKING, Annotated
 import numpy as np
 import typer
 
+from singletrack.commands.figures import check_figure
 from singletrack.commands.model import seated
 from singletrack.commands.model_options import ModelOptions
 from singletrack.commands.options import BicycleArgument, JsonOption
 from singletrack.commands.printing import deliver, print_json, show
 from singletrack.errors import InputError
 from singletrack.library import load_bicycle
-from singletrack.output import check_writable
 from singletrack.parameters.units import parse_quantity
 from singletrack.present.turning import turn_figure, turn_text
 from singletrack.public import warn_of_oddities
@@ -25,8 +25,6 @@ if TYPE_CHECKING:
     from singletrack.public.turning import Turn, TurnFamily
 
 __all__ = ["number_of", "run"]
-
-_FIGURES = (".png", ".svg", ".pdf")
 
 
 def run(
@@ -42,9 +40,7 @@ def run(
 ) -> None:
     """Print a steady turn: lean, steer, hand torque, path, forces, and whether it is stable."""
     if plot is not None:
-        if plot.suffix.lower() not in _FIGURES:
-            raise InputError(f"{plot}: unknown suffix {plot.suffix!r}, must be one of {', '.join(_FIGURES)}")
-        check_writable(plot)
+        check_figure(plot)
     if (lean is None) == (radius is None):
         raise InputError("turn: found neither or both of --lean and --radius, must be one of them")
     if options.answer is not None:
