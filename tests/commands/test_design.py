@@ -10,10 +10,10 @@ import pytest
 from singletrack import load_bicycle
 from singletrack.analysis.derivatives import derivatives_of
 from singletrack.analysis.designs import Design
+from singletrack.analysis.effort_aim import LeastEffort
 from singletrack.commands.door import run
 from singletrack.control import effort
 from singletrack.errors import InputError
-from singletrack.public.effort_aim import LeastEffort
 
 VARY = ["--vary", "trail=20mm:120mm", "--vary", "steer_axis_tilt=12deg:25deg"]
 

@@ -13,6 +13,7 @@ import numpy as np
 import typer
 
 from singletrack.analysis.aims import LowestWeave, StableBetween, TargetMatrices, WidestRange
+from singletrack.analysis.effort_aim import LeastEffort
 from singletrack.analysis.pareto import Front, pareto_front, worth
 from singletrack.analysis.problem import Found, Keep, Problem
 from singletrack.analysis.quantities import quantity, quantity_unit
@@ -31,7 +32,6 @@ from singletrack.output import check_writable, write_whole
 from singletrack.parameters.steps import step_of
 from singletrack.parameters.units import parse_quantity
 from singletrack.present.tables import critical_speeds_text, rows_table
-from singletrack.public.effort_aim import LeastEffort
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
