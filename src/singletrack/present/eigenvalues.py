@@ -11,6 +11,8 @@ from singletrack.present.style import COLOURS, colour_of, new_figure, style
 from singletrack.present.words import METRES, SpeedUnit
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
     from matplotlib.text import Annotation
@@ -44,7 +46,12 @@ def eigenvalue_figure(modes: Modes, critical: CriticalSpeeds, title: str, limit:
 
 
 def draw_eigenvalues(
-    axes: Axes, modes: Modes, critical: CriticalSpeeds, limit: float = 10.0, unit: SpeedUnit = METRES
+    axes: Axes,
+    modes: Modes,
+    critical: CriticalSpeeds,
+    limit: float = 10.0,
+    unit: SpeedUnit = METRES,
+    beside: Sequence[Curve] = (),
 ) -> list[str]:
     """Draw the eigenvalues of a single design on axes of any size.
 
@@ -55,6 +62,8 @@ def draw_eigenvalues(
         As for :func:`eigenvalue_figure`.
     unit : SpeedUnit
         Of the speed in the figure.
+    beside : sequence of Curve
+        What else is drawn there, which labels keep away from.
 
     Returns
     -------
@@ -79,7 +88,8 @@ def draw_eigenvalues(
     shown = [(max(low, float(v[0])), min(high, float(v[-1]))) for low, high in ranges]
     least = 0.06 * float(v[-1] - v[0])
     wide = [_stable_label(low, high, limit) for low, high in shown if high - low > least]
-    left_out = label_curves(axes, [*(curve for curve, _ in curves), Curve(v, 0.0 * v, "", "black"), *wide], marked)
+    drawn = [*(curve for curve, _ in curves), Curve(v, 0.0 * v, "", "black"), *wide, *beside]
+    left_out = label_curves(axes, drawn, marked)
     named = {curve.label.partition(" ")[2] for curve, _ in curves if curve.label and curve.label not in left_out}
     shown = (np.abs(modes.eigenvalues.real) < limit).any(axis=0)
     in_view = [name for name, seen in zip(modes.names, shown, strict=True) if seen]

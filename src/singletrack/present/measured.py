@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from singletrack.present.eigenvalues import draw_eigenvalues
+from singletrack.present.labels import Curve
 from singletrack.present.style import new_figure, style
 
 if TYPE_CHECKING:
@@ -16,6 +17,10 @@ if TYPE_CHECKING:
     from singletrack.linear import CriticalSpeeds, Modes
 
 __all__ = ["measured_figure"]
+
+
+#: Points of a bar that labels keep away from.
+_ALONG = 5
 
 
 def measured_figure(modes: Modes, critical: CriticalSpeeds, runs: MeasuredModes, title: str) -> Figure:
@@ -40,6 +45,10 @@ def measured_figure(modes: Modes, critical: CriticalSpeeds, runs: MeasuredModes,
             axes.errorbar(
                 *(middle, values), xerr=reach, fmt=marker, ms=2.6, lw=0.7, color="#222222", label=label, zorder=4
             )
-        draw_eigenvalues(axes, modes, critical)
-        axes.legend(loc="lower left", frameon=False, fontsize=8)
+        along = np.linspace(runs.lowest_speeds, runs.highest_speeds, _ALONG)
+        bars = [
+            Curve(along.ravel(), np.broadcast_to(values, along.shape).ravel(), "", "#222222") for values, *_ in marks
+        ]
+        draw_eigenvalues(axes, modes, critical, beside=bars)
+        axes.legend(loc="upper left", frameon=False, fontsize=8)
     return figure

@@ -62,7 +62,7 @@ def turn_figure(lean: Array, names: Sequence[str], roots: Array, title: str, end
     with style():
         figure = new_figure(6.4, 4.2)
         axes = figure.add_subplot()
-        axes.set_title(title, loc="left", fontsize=10)
+        axes.set_title(f"{title}\nends: {end}", loc="left", fontsize=10)
         axes.axhline(0.0, color="black", lw=0.8)
         for name in dict.fromkeys(names):
             columns = [i for i, other in enumerate(names) if other == name]
@@ -74,7 +74,6 @@ def turn_figure(lean: Array, names: Sequence[str], roots: Array, title: str, end
         axes.set_ylim(*_limits(roots))
         axes.set_xlabel("lean (deg)")
         axes.set_ylabel("eigenvalues: Re λ solid, Im λ dashed (1/s)")
-        axes.annotate(f"ends: {end}", (1.0, 0.02), xycoords="axes fraction", ha="right", fontsize=8)
         axes.legend(frameon=False, fontsize=8)
     return figure
 
