@@ -125,3 +125,8 @@ def test_template_becomes_a_file_when_filled_in(write, kind):
 def test_template_unfilled_is_refused_kindly(write):
     with pytest.raises(InputError, match=r"line \d+: wheel_base = '\? m' is not a number"):
         load_bicycle(write(template("bicycle")))
+
+
+def test_an_empty_name_is_not_this_folder():
+    with pytest.raises(InputError, match="bicycle '': must be a name or a path"):
+        load_bicycle("")

@@ -69,7 +69,9 @@ class ModelOptions:
     elbow_angle: Annotated[
         str | None, typer.Option("--elbow-angle", metavar="ANGLE", help='With --fit: bent so, e.g. "150 deg".')
     ] = None
-    engine: Annotated[EngineName, typer.Option("--engine", help="Which derivation to use.")] = EngineName.closed_form
+    engine: Annotated[
+        EngineName, typer.Option("--engine", help="Which derivation to use; turn and ride: multibody.")
+    ] = EngineName.closed_form
     settings: Annotated[
         list[str] | None,
         typer.Option("--set", metavar="NAME=VALUE", help='Change a parameter, e.g. "steer_axis_tilt=18.5 deg".'),

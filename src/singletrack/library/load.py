@@ -103,7 +103,7 @@ def load_any(name_or_path: str | Path, configuration: str | Path | None = None) 
 
 def _text(name_or_path: str | Path, *kinds: str) -> tuple[str, str]:
     """Return the text of a shipped thing or a file, and what to call it in messages."""
-    if not isinstance(name_or_path, str | Path):
+    if not isinstance(name_or_path, str | Path) or name_or_path == "":  # which Path would take for this folder
         raise InputError(f"{' or '.join(kinds)} {shown(name_or_path)}: must be a name or a path")
     known = {name: file for kind in kinds for name, file in shipped(kind).items()}
     if isinstance(name_or_path, str) and name_or_path in known:

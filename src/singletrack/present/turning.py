@@ -35,7 +35,7 @@ def turn_text(
     roots
         Names of the modes and their eigenvalues, 1/s, each a scalar.
     """
-    lines = [f"{what + ':':<22}{value:10.4g} {unit}".rstrip() for what, value, unit in quantities]
+    lines = [f"{what + ':':<22}{value + 0.0:10.4g} {unit}".rstrip() for what, value, unit in quantities]
     lines += [
         f"{whose + ':':<22}" + " ".join(f"{round(float(part), 1) + 0.0:9.1f}" for part in force) + " N"
         for whose, force in forces
