@@ -127,7 +127,7 @@ def test_a_thousand_designs_have_pythons_numbers(browser):
 
 
 def test_a_sliders_redraw_is_quicker_than_a_frame(browser):
-    """Scripting alone, as the page measures it; the quicker ones of 41, as other tests run beside."""
+    """Scripting alone, as the page measures it: the median of 41, in the quietest of three rounds."""
     script = """
       const times = [], slider = document.getElementById("slider-trail");
       for (let k = 0; k < 41; k++) {
@@ -135,10 +135,10 @@ def test_a_sliders_redraw_is_quicker_than_a_frame(browser):
         slider.dispatchEvent(new Event("input"));
         times.push(window.singletrack.lastRedraw());
       }
-      return times.sort((a, b) => a - b)[4];
+      return times.sort((a, b) => a - b)[20];
     """
     ask(browser, [{"bicycle": "stratos", "rider": "rider-a"}, {"posture": "upright"}])
-    assert browser.execute_script(script) < 16
+    assert min(browser.execute_script(script) for _ in range(3)) < 16
 
 
 def test_every_control_answers(browser):
