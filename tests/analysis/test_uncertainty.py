@@ -5,9 +5,11 @@ import pytest
 
 from singletrack import InputError, coefficients, load_bicycle, load_rider
 from singletrack.analysis.uncertainty import eigenvalue_uncertainty, linear_uncertainty, sample_designs
+from singletrack.closed_form import coefficients as linear_model
 from singletrack.files.measured import read_measured
 from singletrack.files.source import read_text
 from singletrack.linear import modes
+from singletrack.posture import Options
 
 # About what a tape measure and a scale give.
 DEVIATIONS = {
@@ -147,3 +149,26 @@ def test_designs_in_which_the_rider_does_not_reach_are_left_out_of_the_sample():
     assert 200 < drawn.model.shape[0] < 400
     found = eigenvalue_uncertainty(bicycle, rider, speeds=np.linspace(0, 8, 17), samples=400)
     assert np.isfinite(found.real_deviation).all()
+
+
+@pytest.mark.parametrize(
+    "options",
+    [
+        Options("upright", dampers={"steer": 3.0}),
+        Options("upright", torso_lean=True, springs={"torso lean": 50.0}),
+    ],
+)
+def test_a_sample_keeps_all_freedoms_springs_and_dampers(options):
+    """Against the same designs made one by one, from the same draws: only the trail is uncertain."""
+    bicycle, rider = load_bicycle("browser").replace(standard_deviations={"trail": 0.002}), load_rider("rider-a")
+    found = sample_designs(bicycle, rider, options, samples=12, seed=3)
+    draws = np.random.default_rng(3).standard_normal((12, 1))[:, 0]
+    each = [linear_model(bicycle.replace(trail=bicycle.trail + 0.002 * d), rider, options) for d in draws]
+    assert found.model.coordinates == each[0].coordinates
+    for name in ("M", "C0", "C1", "K0", "S0", "K2"):
+        own = np.asarray(getattr(found.model, name))
+        for k, one in enumerate(each):
+            np.testing.assert_allclose(own[k], getattr(one, name), rtol=1e-9, atol=1e-9)
+    assert (np.abs(np.asarray(found.model.C0)).max() > 0) == bool(options.dampers)
+    spread = eigenvalue_uncertainty(bicycle, rider, options, speeds=[1.0, 5.0], samples=30)
+    assert spread.names == modes(found.nominal, [1.0]).names

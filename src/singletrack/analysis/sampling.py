@@ -129,8 +129,4 @@ def sample_designs(
             f"{bicycle.name or 'bicycle'}: only {good.sum()} of {samples} designs within the standard deviations can "
             "exist; the standard deviations are too large for a sample"
         )
-    gravity = np.broadcast_to(np.asarray(moved.gravity, dtype=float), (samples,))[good]
-    whole = whole_batch(moved, samples)
-    M, C1, K0, K2, gravity = (a[good] for a in (whole.M, whole.C1, whole.K0, whole.K2, whole.gravity))
-    kept = LinearModel(M, C1, K0, K2, gravity)
-    return Sample(coefficients(bicycle, rider, options), kept, samples)
+    return Sample(coefficients(bicycle, rider, options), whole_batch(moved, samples)[good], samples)
