@@ -87,8 +87,7 @@ class WidestRange:
         ----------
         slopes : Derivatives
         """
-        ranges = [(low, min(high, self.top)) for low, high in critical_speeds(slopes.model).stable_ranges]
-        ranges = [(low, high) for low, high in ranges if low < high]
+        ranges = _stable_below(slopes, self.top)
         if not ranges:
             value, row = _least_growth(slopes, self.top)
             return np.array([value]), row[None]
@@ -119,8 +118,7 @@ class LowestWeave:
         ----------
         slopes : Derivatives
         """
-        ranges = [(low, min(high, self.top)) for low, high in critical_speeds(slopes.model).stable_ranges]
-        ranges = [(low, high) for low, high in ranges if low < high]
+        ranges = _stable_below(slopes, self.top)
         if not ranges:
             value, row = _least_growth(slopes, self.top)
             return np.full(2, self.top + value), np.stack([row, row])
@@ -162,6 +160,12 @@ class TargetMatrices:
             value += float((apart**2).sum())
             row += 2 * np.einsum("ij,kij->k", apart, slopes.matrices[name]) / np.linalg.norm(wanted)
         return np.array([value]), row[None]
+
+
+def _stable_below(slopes: Derivatives, top: float) -> list[tuple[float, float]]:
+    """Return the stable ranges in m/s, as far as they lie below top."""
+    ranges = [(low, min(high, top)) for low, high in critical_speeds(slopes.model).stable_ranges]
+    return [(low, high) for low, high in ranges if low < high]
 
 
 def _least_growth(slopes: Derivatives, top: float) -> tuple[float, np.ndarray]:
