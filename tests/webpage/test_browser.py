@@ -35,6 +35,29 @@ def browser(tmp_path_factory):
     driver.quit()
 
 
+def test_without_webgl_all_but_the_picture_works(tmp_path):
+    options = webdriver.ChromeOptions()
+    options.binary_location = BROWSER
+    for argument in ("--headless=new", "--no-sandbox", "--disable-gpu", "--disable-3d-apis"):
+        options.add_argument(argument)
+    options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
+    driver = webdriver.Chrome(options=options, service=webdriver.ChromeService(DRIVER))
+    try:
+        driver.get(page().save(tmp_path / "page.html").as_uri())
+        assert "WebGL is off" in driver.find_element("id", "flat").text
+        found = json.loads(
+            driver.execute_script(
+                "window.singletrack.set({speed: 5}); return JSON.stringify(window.singletrack.result())"
+            )
+        )
+        assert found["weave"]
+        assert driver.find_elements("css selector", "#controls input[type=range]")
+        errors = [entry["message"] for entry in driver.get_log("browser") if entry["level"] == "SEVERE"]
+        assert [line for line in errors if "Uncaught" in line] == []
+    finally:
+        driver.quit()
+
+
 def ask(browser, changes):
     """Set the page back, make changes, return what it answers."""
     script = "const s = window.singletrack; for (const c of arguments[0]) s.set(c); return JSON.stringify(s.result());"

@@ -121,6 +121,8 @@ export class Chart {
   /** Names of the modes in a row at the bottom, in their colours. */
   private nameCurves(plot: uPlot): void {
     const { ctx, bbox } = plot;
+    ctx.textAlign = "left"; // the axes leave theirs
+    ctx.textBaseline = "alphabetic";
     let left = bbox.left + 8 * devicePixelRatio;
     for (const name of new Set((this.curves as Curves).names)) {
       ctx.fillStyle = colourOf(name);

@@ -52,7 +52,8 @@ export interface Pose {
 }
 
 export class Scene {
-  private readonly renderer: THREE.WebGLRenderer;
+  /** None in a browser that cannot draw in space: all but this picture works there too. */
+  private readonly renderer: THREE.WebGLRenderer | null;
   private readonly scene = new THREE.Scene();
   private readonly camera = new THREE.PerspectiveCamera(38, 1, 0.05, 80);
   private readonly orbit: OrbitControls;
@@ -69,8 +70,8 @@ export class Scene {
   stale = true;
 
   constructor(private readonly canvas: HTMLCanvasElement) {
-    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true, alpha: true });
-    this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
+    this.renderer = rendererOf(canvas);
+    this.renderer?.setPixelRatio(Math.min(devicePixelRatio, 2));
     this.camera.position.set(0.4, 1.5, 4.2);
     this.orbit = new OrbitControls(this.camera, canvas);
     this.orbit.target.set(0.5, 0.75, 0);
@@ -187,9 +188,10 @@ export class Scene {
       this.orbit.target.copy(target);
     }
     this.orbit.update();
-    this.fit();
-    this.renderer.render(this.scene, this.camera);
     this.stale = false;
+    if (this.renderer === null) return;
+    this.fit(this.renderer);
+    this.renderer.render(this.scene, this.camera);
   }
 
   private moveBodies(points: Float64Array): void {
@@ -237,13 +239,27 @@ export class Scene {
     }
   }
 
-  private fit(): void {
+  private fit(renderer: THREE.WebGLRenderer): void {
     const { clientWidth: width, clientHeight: height } = this.canvas;
-    const ratio = this.renderer.getPixelRatio();
+    const ratio = renderer.getPixelRatio();
     if (this.canvas.width === Math.floor(width * ratio) && this.canvas.height === Math.floor(height * ratio)) return;
-    this.renderer.setSize(width, height, false);
+    renderer.setSize(width, height, false);
     this.camera.aspect = width / Math.max(height, 1);
     this.camera.updateProjectionMatrix();
+  }
+}
+
+/** Returns what draws on a canvas, or null, said in its place, where the browser cannot (no WebGL). */
+function rendererOf(canvas: HTMLCanvasElement): THREE.WebGLRenderer | null {
+  try {
+    return new THREE.WebGLRenderer({ canvas, antialias: true, alpha: true });
+  } catch {
+    const note = document.createElement("p");
+    note.id = "flat";
+    note.textContent = "This browser cannot draw in space (WebGL is off), so the rider is not shown; all else works.";
+    canvas.before(note);
+    canvas.hidden = true;
+    return null;
   }
 }
 
