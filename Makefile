@@ -84,10 +84,14 @@ clean:
 	rm -rf $(VENV) $(TOOLS) build dist singletrack-output .mypy_cache .ruff_cache .import_linter_cache
 
 # The page in the browser: programs traced from the equations, sources checked and built (needs npm), result shipped.
-.PHONY: page page-check page-programs
+.PHONY: page page-check page-programs page-speed
 # Types of the page's sources.
 page-check:
 	cd web && npm ci --no-audit --no-fund --loglevel=error && npm run check
+
+# A redraw within a frame, measured with nothing beside it.
+page-speed: setup-dev
+	$(BIN)/python -m pytest -n 0 -rs -s benchmarks/bench_page.py
 
 page-programs: setup-dev
 	$(BIN)/python -m singletrack.webpage.generate web/src/generated

@@ -3,31 +3,21 @@
 from __future__ import annotations
 
 import json
-import shutil
 import time
 
 import numpy as np
 import pytest
 
+from chromium import needs_chromium, start_chromium
 from singletrack import coefficients, load_bicycle, load_rider, page
 from singletrack.errors import SingletrackError
 
-webdriver = pytest.importorskip("selenium.webdriver", reason="selenium, which drives the browser, is not installed")
-BROWSER, DRIVER = shutil.which("chromium"), shutil.which("chromedriver")
-pytestmark = pytest.mark.skipif(
-    BROWSER is None or DRIVER is None, reason="Chromium and its driver are not installed (.ci/run installs them)"
-)
+pytestmark = needs_chromium
 
 
 @pytest.fixture(scope="module")
 def browser(tmp_path_factory):
-    options = webdriver.ChromeOptions()
-    options.binary_location = BROWSER
-    for argument in ("--headless=new", "--no-sandbox", "--window-size=1400,900", "--enable-unsafe-swiftshader"):
-        options.add_argument(argument)
-    options.set_capability("goog:loggingPrefs", {"performance": "ALL", "browser": "ALL"})
-    driver = webdriver.Chrome(options=options, service=webdriver.ChromeService(DRIVER))
-    driver.set_script_timeout(120)
+    driver = start_chromium("--enable-unsafe-swiftshader")
     file = page().save(tmp_path_factory.mktemp("page") / "page.html")
     driver.get(file.as_uri())
     driver.execute_script("document.getElementById('play').click()")  # still pictures: the processor is for the tests
@@ -36,12 +26,7 @@ def browser(tmp_path_factory):
 
 
 def test_without_webgl_all_but_the_picture_works(tmp_path):
-    options = webdriver.ChromeOptions()
-    options.binary_location = BROWSER
-    for argument in ("--headless=new", "--no-sandbox", "--disable-gpu", "--disable-3d-apis"):
-        options.add_argument(argument)
-    options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
-    driver = webdriver.Chrome(options=options, service=webdriver.ChromeService(DRIVER))
+    driver = start_chromium("--disable-gpu", "--disable-3d-apis")
     try:
         driver.get(page().save(tmp_path / "page.html").as_uri())
         assert "WebGL is off" in driver.find_element("id", "flat").text
@@ -147,21 +132,6 @@ def test_a_thousand_designs_have_pythons_numbers(browser):
         np.testing.assert_allclose(np.ravel(ranges), np.ravel(critical.stable_ranges), rtol=1e-6)
         compared += 1
     assert compared > 500
-
-
-def test_a_sliders_redraw_is_quicker_than_a_frame(browser):
-    """Scripting alone, as the page measures it: the median of 41, in the quietest of three rounds."""
-    script = """
-      const times = [], slider = document.getElementById("slider-trail");
-      for (let k = 0; k < 41; k++) {
-        slider.value = 40 + k;
-        slider.dispatchEvent(new Event("input"));
-        times.push(window.singletrack.lastRedraw());
-      }
-      return times.sort((a, b) => a - b)[20];
-    """
-    ask(browser, [{"bicycle": "stratos", "rider": "rider-a"}, {"posture": "upright"}])
-    assert min(browser.execute_script(script) for _ in range(3)) < 16
 
 
 def test_every_control_answers(browser):
