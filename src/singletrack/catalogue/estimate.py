@@ -140,9 +140,9 @@ def _inertial(
     points: Mapping[str, np.ndarray],
     masses: np.ndarray,
     random: np.random.Generator,
-) -> dict[str, np.ndarray]:
+) -> dict[str, Any]:
     """Return masses, centres and inertias, each (n,)."""
-    found: dict[str, np.ndarray] = {}
+    found: dict[str, Any] = {}
     sample = {name: point[1:] for name, point in points.items()}
     for assembly in ASSEMBLIES:
         own = collection.members(assembly)
