@@ -18,7 +18,7 @@ from typing import Any
 
 import pytest
 from forks import first_failing, forked, limit
-from warm import covering, tests_of_lines
+from warm import covering, quickest, tests_of_lines
 
 LIBRARIES = (
     "casadi control hypothesis jinja2 matplotlib.figure mpmath numpy pint pydantic rich.console scipy.integrate "
@@ -59,7 +59,7 @@ def main(folder: Path, arguments: list[str]) -> None:
             if one["state"] not in {"open", "imported"}:
                 continue
             mutant = mutants[one["number"]]
-            names = sorted(covering(lines, mutant) - left_out, key=lambda name: seconds.get(name, 1.0))
+            names = quickest(covering(lines, mutant) - left_out, seconds)
             started = time.perf_counter()
             result = judge(mutant, names, seconds, arguments)
             killer = result["killed"]

@@ -31,6 +31,8 @@ ROOT = Path.cwd()
 EXAMPLES = 15
 #: Seconds beyond which a test takes no part.
 LONGEST = 5.0
+#: Seconds beyond which no further test is run for a mutant: those that come by are many, and the last tell nothing new.
+TOGETHER = 12.0
 PHASES = (hypothesis.Phase.explicit, hypothesis.Phase.generate)
 
 
@@ -50,7 +52,7 @@ def pytest_runtestloop(session: pytest.Session) -> bool:
     gc.freeze()
     with (folder / "warm.jsonl").open("w") as results:
         for number, mutant in enumerate(json.loads((folder / "mutants.json").read_text())):
-            chosen = sorted(covering(lines, mutant) - set(left_out), key=lambda name: seconds.get(name, 0.0))
+            chosen = quickest(covering(lines, mutant) - set(left_out), seconds)
             started = time.perf_counter()
             result = _judge(mutant, [items[name] for name in chosen if name in items], living, seconds)
             killer = result.get("killed", "")
@@ -89,6 +91,13 @@ def covering(lines: dict[str, dict[int, set[str]]], mutant: dict[str, Any]) -> s
     _, outer = changed_functions(mutant)
     around = {line for code in outer for _, _, line in code.co_lines() if line}
     return set().union(*(by_line.get(line, set()) for line in around or by_line))
+
+
+def quickest(tests: set[str], seconds: dict[str, float]) -> list[str]:
+    """Return tests in the order of what they take, as far as there is time for them."""
+    ordered = sorted(tests, key=lambda name: (seconds.get(name, 1.0), name))
+    spent = [sum(seconds.get(name, 1.0) for name in ordered[:count]) for count in range(len(ordered))]
+    return [name for name, before in zip(ordered, spent, strict=True) if before < TOGETHER]
 
 
 def changed_functions(mutant: dict[str, Any]) -> tuple[list[tuple[CodeType, CodeType]], list[CodeType]]:

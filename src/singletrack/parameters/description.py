@@ -39,6 +39,8 @@ BOUNDS: dict[str, tuple[float, float]] = {
     "kg": (1e-6, 1000.0),
     "kg*m**2": (0.0, 1e5),
     "m/s**2": (1e-6, 1000.0),
+    "N*m/rad": (1e-6, 1e12),
+    "N*m*s/rad": (0.0, 1e12),
 }
 _SMALL_UNITS = {"m": "mm", "kg": "g"}
 
