@@ -53,7 +53,7 @@ def load(
 
 
 def wide(grips: float) -> str:
-    """Return a handlebar's width: the source has the distance between the grips, which is that of the hands (Moore 2012)."""
+    """Return a handlebar's width: the source has the distance between the grips, that of the hands (Moore 2012)."""
     return f"{grips + 0.05} +/- 0.04 m"
 
 
@@ -189,16 +189,16 @@ def case(name: str) -> Case:
     return Case(name, read_measured(path.read_text(encoding="utf-8"), str(path)).bicycle, sheets[name])
 
 
-#: Half of what is between the drop-outs, in m; least width (m) and mass (kg) of a handlebar; half of a stripped frame's saddle.
+#: Half of what is between the drop-outs, in m; least width (m) and mass (kg) of a handlebar; half of a saddle.
 _HALF_HUB = {"front": 0.05, "rear": 0.0675}
 _BAR, _SADDLE = (0.4, 0.25), 0.08
 
 
 def impossible(made: Case) -> set[str]:
-    """Return parameters that no distribution of mass of what was measured can have, as (Ixx + Izz - Iyy) / 2 = sum m y^2.
+    """Return parameters that no distribution of mass can have, as (Ixx + Izz - Iyy) / 2 = sum m y^2.
 
-    A wheel's mass between the drop-outs; a front frame's with a handlebar on it, and with the grips where they were measured;
-    a frame's without cranks and pedals within the saddle's width.
+    A wheel's mass is between the drop-outs; a front frame has a handlebar, and its grips where they were measured; a
+    frame without cranks and pedals is as wide as its saddle.
     """
     b, found = made.measured, set()
     for end, half in _HALF_HUB.items():

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from singletrack import InputError, OddityWarning, catalogue
-from singletrack.catalogue.masses import Prior, Weighing, sample_masses
 from singletrack.catalogue.geometry import resolve
+from singletrack.catalogue.masses import Prior, Weighing, sample_masses
 from singletrack.catalogue.points import points_of
 from singletrack.catalogue.shapes import assemble, place, wheel_inertias
 from singletrack.catalogue.sheet import Sheet

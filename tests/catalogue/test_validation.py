@@ -13,7 +13,7 @@ from singletrack import catalogue, load_rider
 
 MEASURED = ("stratos", "browser", "rigid")
 OTHERS = ("kooijman-2008", "crescendo", "fisher", "pista", "yellow", "gazelle")
-DOCS = Path(__file__).parents[2] / "docs" / "catalogue.md"
+DOCS = Path(__file__).parents[2] / "docs" / "howto" / "catalogue.md"
 
 
 def test_two_stated_deviations_hold_19_of_20_parameters(case):
@@ -42,7 +42,7 @@ def test_weave_speed_of_the_riderless_experiment(case):
 
 
 def test_other_measured_bicycles(case):
-    """All that any distribution of mass can have; docs/catalogue.md tells what falls outside, and why."""
+    """All that any distribution of mass can have; docs/howto/catalogue.md tells what falls outside, and why."""
     scores = {(name, parameter): score for name in OTHERS for parameter, score in case(name).scores().items()}
     assert len(scores) == len(OTHERS) * len(HIDDEN)
     out = {(name, parameter) for name in OTHERS for parameter in impossible(case(name))}
