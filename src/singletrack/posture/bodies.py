@@ -79,13 +79,15 @@ class SlavedMass:
     faults: tuple[Fault, ...] = ()
 
 
-def slaved_mass(posture: Posture, bicycle: Bicycle) -> SlavedMass:
+def slaved_mass(posture: Posture, bicycle: Bicycle, *, massless: bool = False) -> SlavedMass:
     """Return how the mass of a seated rider moves with the steer and the free joints.
 
     Parameters
     ----------
     posture : Posture
     bicycle : Bicycle
+    massless : bool
+        Let free joints move no mass.
 
     Raises
     ------
@@ -125,6 +127,7 @@ def slaved_mass(posture: Posture, bicycle: Bicycle) -> SlavedMass:
     lifted = turning[0] * momentum[1][:, None] - turning[1] * momentum[0][:, None] + momentum[2][:, None] * motion.bends
     inner = [value.reshape(shape) for value in inner]
     damping, stiffness = laws_of(posture, motion)
+    light = () if massless else _massless(posture, inner, whole["inertia_xx"] + whole["inertia_zz"])
     return SlavedMass(
         **whole,
         spin_x=along(spin[0], rates),
@@ -135,7 +138,7 @@ def slaved_mass(posture: Posture, bicycle: Bicycle) -> SlavedMass:
         freedoms=posture.freedoms,
         damping=damping,
         stiffness=stiffness,
-        faults=faults + motion.faults + _massless(posture, inner, whole["inertia_xx"] + whole["inertia_zz"]),
+        faults=faults + motion.faults + light,
     )
 
 
