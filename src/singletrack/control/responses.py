@@ -209,13 +209,15 @@ def frequency_response(system: StateSpace, frequencies: Array) -> xarray.DataArr
 
     w = np.atleast_1d(np.asarray(frequencies, dtype=float))
     shifted = 1j * w[:, None, None] * np.eye(system.A.shape[-1]) - system.A[..., None, :, :]
-    values = system.C @ np.linalg.solve(shifted, system.B[..., None, :, :]) + system.D
+    values = system.C[..., None, :, :] @ np.linalg.solve(shifted, system.B[..., None, :, :]) + system.D[..., None, :, :]
     dims = [*_batch_dims(system, values.shape[:-3]), "frequency", "output", "input"]
     coords: dict[str, Any] = {
         "frequency": ("frequency", w, {"units": "rad/s"}),
         "output": list(system.outputs),
         "input": list(system.inputs),
     }
+    if np.ndim(system.speed):
+        coords["speed"] = ("speed", np.asarray(system.speed), {"units": "m/s"})
     return xr.DataArray(values, dims=dims, coords=coords)
 
 

@@ -53,6 +53,11 @@ class StateSpace:
         if self.C.shape[-2] != len(self.outputs):
             raise InputError(f"C has {self.C.shape[-2]} rows, must have one for each of {len(self.outputs)} outputs")
 
+    def to_dict(self) -> dict[str, Any]:
+        """Return names, and matrices as nested lists in full double precision (for JSON)."""
+        names = {key: list(getattr(self, key)) for key in ("states", "outputs")}
+        return names | {key: np.asarray(getattr(self, key)).tolist() for key in "ABCD"}
+
     def to_control(self) -> Any:
         """Return a single design at a single speed as a ``control.StateSpace`` of python-control, with named signals.
 
