@@ -168,7 +168,7 @@ def test_responses_show_outputs_by_name(tmp_path: Any) -> None:
 
 def test_what_cannot_be_known_is_refused() -> None:
     model = coefficients(STRATOS, RIDER, "leaned")
-    pushed = with_inputs(model, {"push": [1.0, 0.0]})
+    pushed = with_inputs(model, {"push": np.array([1.0, 0.0])})
     with pytest.raises(InputError, match="input 'push': what it does at once"):
         pushed.state_space(3.0, ["right hand force x"])
     assert not pushed.state_space(3.0, ["torso twist"]).D.any()

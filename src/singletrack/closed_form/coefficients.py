@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -102,7 +102,8 @@ def seated_model(
     added = slaved_matrices(bodies, bicycle)
     more = len(bodies.freedoms)
     M, C1, K0, K2 = (_padded(one, more) + other for one, other in zip(bare, added, strict=True))
-    C0, S0 = (None if own is None else _bordered(own) for own in (bodies.damping, bodies.stiffness))
+    laws = (bodies.damping, bodies.stiffness)
+    C0, S0 = (np.zeros((2 + more, 2 + more)) if own is None else _bordered(own) for own in laws)
     model = LinearModel(
         M,
         C1,
@@ -159,7 +160,7 @@ def _bordered(matrix: Array) -> Array:
     return xp.concat([xp.zeros((*batch, 1, f + 1), dtype=matrix.dtype), wide], axis=-2)
 
 
-def _steer_laws(options: Options, freedoms: int) -> tuple[Array | None, Array | None]:
+def _steer_laws(options: Options, freedoms: int) -> tuple[Any, Any]:
     """Return C0 and S0 of damper and spring on the steer, None without."""
     found: list[Array | None] = []
     for values in (options.dampers, options.springs):
@@ -173,7 +174,7 @@ def _steer_laws(options: Options, freedoms: int) -> tuple[Array | None, Array | 
     return found[0], found[1]
 
 
-def _both(one: Array | None, other: Array | None) -> Array | None:
+def _both(one: Array | None, other: Array | None) -> Any:
     if one is None or other is None:
         return other if one is None else one
     return one + other

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
     import xarray
 
-    from singletrack.arrays import Array
+    from singletrack.arrays import Array, ArrayLike
     from singletrack.linear import StateSpace
 
 __all__ = ["discretised", "frequency_response", "impulse_response", "response", "save_mat", "step_response"]
@@ -195,7 +195,7 @@ def _place(system: StateSpace, input_name: str) -> int:
     return system.inputs.index(input_name)
 
 
-def frequency_response(system: StateSpace, frequencies: Array) -> xarray.DataArray:
+def frequency_response(system: StateSpace, frequencies: ArrayLike) -> xarray.DataArray:
     """Return the complex response at frequencies (k,) in rad/s: dimensions (..., frequency, output, input).
 
     Examples

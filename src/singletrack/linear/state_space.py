@@ -13,7 +13,7 @@ from singletrack.linear.eigenvalues import checked_speeds
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from singletrack.arrays import Array
+    from singletrack.arrays import ArrayLike
     from singletrack.model import LinearModel, Outputs
 
 __all__ = ["StateSpace", "state_space"]
@@ -75,7 +75,7 @@ class StateSpace:
 
 
 def state_space(
-    model: LinearModel, speed: Array, outputs: Sequence[str] | None = None, seen: Outputs | None = None
+    model: LinearModel, speed: ArrayLike, outputs: Sequence[str] | None = None, seen: Outputs | None = None
 ) -> StateSpace:
     """Return the first-order systems at a forward speed () or at several (k,) in m/s.
 

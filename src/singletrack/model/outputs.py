@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
 
-from singletrack.arrays import Array
+from singletrack.arrays import Array, Number
 from singletrack.errors import InputError, unknown_name
 
 if TYPE_CHECKING:
@@ -51,7 +51,7 @@ class Outputs:
     K0: Array
     K2: Array
     B: Array
-    gravity: Array
+    gravity: Number
     coordinates: tuple[str, ...]
     inputs: tuple[str, ...]
     rest: Array

@@ -15,7 +15,7 @@ from singletrack.posture import Options
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from singletrack.arrays import Array
+    from singletrack.arrays import ArrayLike
     from singletrack.linear import StateSpace
     from singletrack.model import LinearModel
 
@@ -59,7 +59,7 @@ class Origin:
 
 
 def observed(
-    model: LinearModel, speed: Array, outputs: Sequence[str] | Outputs | None, origin: Origin | None
+    model: LinearModel, speed: ArrayLike, outputs: Sequence[str] | Outputs | None, origin: Origin | None
 ) -> StateSpace:
     """Return first-order systems with the outputs asked for, by name or as a record.
 
