@@ -13,9 +13,10 @@ from singletrack.commands.model import Made, model_from
 from singletrack.commands.model_options import ModelOptions
 from singletrack.commands.options import BicycleArgument, JsonOption, SpeedsOption
 from singletrack.commands.printing import print_json, show
-from singletrack.control import control_summary, frequency_response, save_mat
+from singletrack.control import ControlSummary, control_summary, frequency_response, save_mat
 from singletrack.errors import InputError
 from singletrack.files.speeds import parse_speeds
+from singletrack.linear import StateSpace
 from singletrack.output import check_writable
 from singletrack.present.bode import bode_figure, seen_tables
 from singletrack.present.control import angles_figure, control_tables, locus_figure
@@ -73,9 +74,7 @@ def run(
     if json:
         print_json(found.to_dict() | (system.to_dict() if wanted else {}))
     else:
-        show(control_tables(found, made.title))
-        if wanted:
-            show(seen_tables(system, abs(frequency_response(system, [2 * np.pi])), made.title))
+        _tell(made, found, system if wanted else None)
     draws: list[tuple[Path | None, Callable[[], Figure]]] = [
         (plot, lambda: angles_figure(found, made.title)),
         (locus, lambda: _locus(made, values)),
@@ -88,6 +87,12 @@ def run(
         save_mat(system, mat)
         if not json:
             show(f"wrote {mat}")
+
+
+def _tell(made: Made, found: ControlSummary, system: StateSpace | None) -> None:
+    show(control_tables(found, made.title))
+    if system is not None:
+        show(seen_tables(system, abs(frequency_response(system, [2 * np.pi])), made.title))
 
 
 def _check_files(figures: tuple[Path | None, ...], mat: Path | None) -> None:
