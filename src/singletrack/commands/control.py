@@ -58,9 +58,7 @@ def run(
     bode: Annotated[
         Path | None, typer.Option(metavar="FILE", help="Draw the outputs over frequency here: .png, .svg or .pdf.")
     ] = None,
-    mat: Annotated[
-        Path | None, typer.Option(metavar="FILE", help="Write A, B, C, D at the speeds here, for Matlab.")
-    ] = None,
+    mat: Annotated[Path | None, typer.Option(metavar="FILE", help="Write A, B, C, D here, for Matlab.")] = None,
     json: JsonOption = False,
 ) -> None:
     """Print where inputs lose modes, how well they reach them, and what riding costs."""
