@@ -74,17 +74,18 @@ def coefficients(bicycle: Bicycle, rider: Rider | None = None, options: Options 
         model = LinearModel(*bare, bicycle.gravity, faults=bicycle.standing_faults, C0=laws[0], S0=laws[1])
         return _checked(on_round_tyres(_softened(model, bicycle, None), bicycle, None), bicycle.name)
     posture = seat(bicycle, rider, options)
-    model = seated_model(bicycle, posture, bare)
-    C0, S0 = (
-        _both(own, steer)
-        for own, steer in zip((model.C0, model.S0), _steer_laws(options, model.freedoms - 1), strict=True)
-    )
+    model = seated_model(bicycle, posture, bare, options)
     faults = bicycle.standing_faults + rider.standing_faults + model.faults
-    return _checked(dataclasses.replace(model, C0=C0, S0=S0, faults=faults), bicycle.name)
+    return _checked(dataclasses.replace(model, faults=faults), bicycle.name)
 
 
 def seated_model(
-    bicycle: Bicycle, posture: Posture, bare: Matrices | None = None, *, massless: bool = False
+    bicycle: Bicycle,
+    posture: Posture,
+    bare: Matrices | None = None,
+    options: Options | None = None,
+    *,
+    massless: bool = False,
 ) -> LinearModel:
     """Return the equations with a seated rider, whatever the mass matrix; faults are those of the posture.
 
@@ -94,6 +95,8 @@ def seated_model(
     posture : Posture
     bare : Matrices, optional
         Of the bicycle alone, where they are known already.
+    options : Options, optional
+        Whose spring and damper at the steer there are.
     massless : bool
         Let free joints move no mass.
     """
@@ -102,8 +105,11 @@ def seated_model(
     added = slaved_matrices(bodies, bicycle)
     more = len(bodies.freedoms)
     M, C1, K0, K2 = (_padded(one, more) + other for one, other in zip(bare, added, strict=True))
-    laws = (bodies.damping, bodies.stiffness)
-    C0, S0 = (np.zeros((2 + more, 2 + more)) if own is None else _bordered(own) for own in laws)
+    of_joints = (bodies.damping, bodies.stiffness)
+    C0, S0 = (
+        _both(None if own is None else _bordered(own), steer)
+        for own, steer in zip(of_joints, _steer_laws(options or Options(), 1 + more), strict=True)
+    )
     model = LinearModel(
         M,
         C1,
