@@ -12,7 +12,7 @@ follows from it (docs/theory/closed-form.md, with X as in :mod:`singletrack.post
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -127,8 +127,7 @@ def slaved_mass(posture: Posture, bicycle: Bicycle, *, massless: bool = False) -
     lifted = turning[0] * momentum[1][:, None] - turning[1] * momentum[0][:, None] + momentum[2][:, None] * motion.bends
     inner = [value.reshape(shape) for value in inner]
     damping, stiffness = laws_of(posture, motion)
-    light = () if massless else _massless(posture, inner, whole["inertia_xx"] + whole["inertia_zz"])
-    return SlavedMass(
+    mass = SlavedMass(
         **whole,
         spin_x=along(spin[0], rates),
         spin_z=along(spin[2], rates),
@@ -138,8 +137,12 @@ def slaved_mass(posture: Posture, bicycle: Bicycle, *, massless: bool = False) -
         freedoms=posture.freedoms,
         damping=damping,
         stiffness=stiffness,
-        faults=faults + motion.faults + light,
+        faults=faults + motion.faults,
     )
+    if massless:
+        return mass
+    light = _massless(posture, inner, whole["inertia_xx"] + whole["inertia_zz"])
+    return replace(mass, faults=mass.faults + light)
 
 
 def _batch(posture: Posture) -> tuple[int, ...]:
