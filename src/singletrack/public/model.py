@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 
     from matplotlib.figure import Figure
 
+    from singletrack.analysis.uncertainty import EigenvalueUncertainty
     from singletrack.arrays import Array
     from singletrack.parameters import Bicycle, Rider
     from singletrack.posture import Mechanism
@@ -81,6 +82,7 @@ class CoefficientMatrices(LinearModel):
         title: str = "",
         kmh: bool = False,
         limit: float = 10.0,
+        uncertainty: EigenvalueUncertainty | None = None,
     ) -> Figure:
         """Return a figure of the eigenvalues over the forward speed; notebooks show it.
 
@@ -96,6 +98,8 @@ class CoefficientMatrices(LinearModel):
             Show speeds in km/h.
         limit : float
             The vertical axis runs from -limit to limit, in 1/s.
+        uncertainty : EigenvalueUncertainty, optional
+            Of a single design: its central 95 % are shaded (:func:`singletrack.analysis.uncertainty.eigenvalue_uncertainty`).
 
         Returns
         -------
@@ -105,7 +109,7 @@ class CoefficientMatrices(LinearModel):
         Raises
         ------
         InputError
-            For a batch of more than one axis, or a speed that is negative or not finite.
+            For a batch of more than one axis, or one with ``uncertainty``; for a speed that is negative or not finite.
 
         Examples
         --------
@@ -114,7 +118,8 @@ class CoefficientMatrices(LinearModel):
         >>> [text.get_text() for text in figure.axes[0].texts][0]
         'weave speed 4.29 m/s'
         """
-        return figure_of_model(self, speeds, width=width, title=title, kmh=kmh, limit=limit)
+        look = {"width": width, "title": title, "kmh": kmh, "limit": limit}
+        return figure_of_model(self, speeds, **look, uncertainty=uncertainty)
 
     def to_latex(self, caption: str = "", digits: int = 5) -> str:
         """Return the matrices and critical speeds of a single design as a table of LaTeX.
