@@ -1,4 +1,4 @@
-"""Tyres with a round cross-section: what leaning on them adds to the linear model (derived in docs/theory.md).
+"""Tyres with a round cross-section: what leaning on them adds to the linear model (docs/theory/closed-form.md).
 
 A wheel of outer radius r and crown radius c (of the tyre's cross-section) that leans by a stands with its hub at the
 height ``(r - c) cos a + c``: higher than a knife edge by ``c a^2 / 2``. To second order that lifts the load N on the

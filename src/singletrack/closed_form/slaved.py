@@ -1,4 +1,4 @@
-"""What bodies slaved to the steer angle and to free joints add to the matrices (derived in docs/theory.md)."""
+"""What bodies slaved to the steer angle and to free joints add to the matrices (docs/theory/closed-form.md)."""
 
 from __future__ import annotations
 

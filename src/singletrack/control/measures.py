@@ -26,7 +26,7 @@ def modal_controllability(model: LinearModel, speeds: Array) -> dict[str, np.nda
 
     Notes
     -----
-    cos β = |vᵢ* bⱼ| / (|vᵢ| |bⱼ|) with the left eigenvector vᵢ of the state matrix and the column bⱼ of its inputs
+    ``cos β = |vᵢ* bⱼ| / (|vᵢ| |bⱼ|)`` with the left eigenvector vᵢ of the state matrix and the column bⱼ of its inputs
     (Hamdan and Nayfeh 1989, Journal of Guidance, Control, and Dynamics 12:421-428). The state is the coordinates in
     rad, then their rates in rad/s: the angle depends on these units.
 

@@ -59,7 +59,7 @@ class Modes:
     coordinates : tuple of str
         Names of the n coordinates.
     dominant : int array, shape (..., k, 2 n)
-        Which coordinate takes most part in each motion, in units that make masses alike: |q_i|² M_ii is largest.
+        Which coordinate takes most part in each motion, in units that make masses alike: ``|q_i|² M_ii`` is largest.
     """
 
     speeds: np.ndarray

@@ -125,7 +125,7 @@ class LinearModel:
         return moving if self.is_undamped else self.S0 + moving
 
     def broadcast_to(self, shape: tuple[int, ...]) -> Self:
-        """Return the model with every matrix of the full shape (*shape, n, n), gravity (*shape,), as NumPy arrays."""
+        """Return the model with matrices of the full shape ``(*shape, n, n)``, gravity ``(*shape,)``, in NumPy."""
         fields = {name: np.asarray(getattr(self, name)) for name in (*_SQUARE, "B")}
         full: dict[str, Any] = {name: np.broadcast_to(a, (*shape, *a.shape[-2:])) for name, a in fields.items()}
         full["gravity"] = np.broadcast_to(np.asarray(self.gravity, dtype=float), shape)
@@ -163,7 +163,7 @@ class LinearModel:
         ------
         InputError
             If matrices are missing, unknown, of another shape or not finite, M is not symmetric positive definite or
-            K0 not symmetric; of a batch, such designs become :attr:`faults`.
+            K0 not symmetric; of a batch, such designs become its ``faults``.
 
         Examples
         --------

@@ -36,7 +36,7 @@ class Bicycle(Record):
     ------
     InputError
         If a single design has a value that is missing, not finite or not allowed, or an inertia no body can have.
-        A batch keeps its faulty designs and lists them in :meth:`faults`.
+        A batch keeps its faulty designs and lists them in ``faults``.
 
     Examples
     --------

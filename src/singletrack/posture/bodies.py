@@ -2,7 +2,7 @@
 
 A joint's momentum (p, h) is that of all it carries for its unit rate, about the rear contact: p = M v + w x S and
 h = I w + S x v, with the mass M, first moment S and inertia I of the segments beyond it. Everything the equations need
-follows from it (docs/theory.md, with X as in :mod:`singletrack.posture.twists` and Y the same sum of v):
+follows from it (docs/theory/closed-form.md, with X as in :mod:`singletrack.posture.twists` and Y the same sum of v):
 
     momenta along a freedom      sum of  p U_i,  h U_i
     inertia of two freedoms      sum of  (X_i . h + Y_i . p) U_j + (X_j . h + Y_j . p) U_i

@@ -4,7 +4,7 @@ A monic quartic s⁴ + b s³ + c s² + d s + e is the product of s² + p₁ s + 
 y = q₁ + q₂ is a root of the resolvent cubic. Of its real roots that give real factors the best separated one is
 taken; Halley's method finds it from outside, and Newton's method on the four equations for p₁, q₁, p₂, q₂ removes
 what rounding and cancellation have done so far. Then the product of the factors is compared with the quartic.
-docs/eigenvalues.md has the error analysis.
+docs/theory/eigenvalues.md has the error analysis.
 
 The algorithm is written once, for NumPy arrays, JAX arrays and (compiled by numba) single numbers: that is why its
 functions take ``where`` and ``sqrt`` as arguments, and say ``== False`` for "not".
