@@ -88,10 +88,10 @@ print(f"{len(names)} parameters, {np.mean(abs(off) < 2):.0%} within two standard
 # What is seen
 # ------------
 # Left, where the plumb lines of both frames pass: three lines never cross in one point, and the point nearest to all
-# three is taken for the centre of mass (circle; the truth is the cross). Right, how far each parameter came out from the
-# truth, in its own standard deviations: if the uncertainties are honest, nineteen of twenty stay within two. An inertia
-# that is a small difference of large numbers, such as the frame's about y (a swing, less m l²), has a large deviation of
-# its own, and is no worse on this scale.
+# three is taken for the centre of mass (circle; the truth is the cross). Right, how far each parameter came out from
+# the truth, in its own standard deviations: if the uncertainties are honest, nineteen of twenty stay within two. An
+# inertia that is a small difference of large numbers, such as the frame's about y (a swing, less m l²), has a large
+# deviation of its own, and is no worse on this scale.
 
 figure, (hanging, apart) = plt.subplots(1, 2, figsize=(10.5, 5.0), layout="constrained")
 for end, colour in (("rear_frame", "#0072B2"), ("front_frame", "#D55E00")):

@@ -39,9 +39,9 @@ print(f"no waist:               fastest growth at 6 m/s {without[at_6]:.3f} 1/s"
 # What is seen
 # ------------
 # Left, the fastest growth over speed. Upright, with hands on the bar, the bicycle is stable at no speed: at 6 m/s it
-# leans over at 1.02 1/s, since the flexed arms hold the steer against the turn into the fall. A waist lets go of some of
-# that (0.81 1/s without any stiffness), never of enough, and one of 1000 N m/rad is as good as locked: its curve lies
-# on that of the shipped upright posture (dashed).
+# leans over at 1.02 1/s, since the flexed arms hold the steer against the turn into the fall. A waist lets go of some
+# of that (0.81 1/s without any stiffness), never of enough, and one of 1000 N m/rad is as good as locked: its curve
+# lies on that of the shipped upright posture (dashed).
 #
 # Right, the motion that the waist brings, torso against bar: one hertz with a slack back, faster with a stiff one, and
 # hardly dependent on how fast one rides.

@@ -29,12 +29,12 @@ for name, cost in costs.items():
 # What is seen
 # ------------
 # Where a bicycle is stable it comes back by itself and the least energy is zero (the curve ends, and begins again
-# beyond the capsize speed). The leaned rider pays most at walking pace, 10 N² m² s against 2.7 with free hands: arms and
-# torso have to be moved, too.
+# beyond the capsize speed). The leaned rider pays most at walking pace, 10 N² m² s against 2.7 with free hands: arms
+# and torso have to be moved, too.
 #
-# The upright rider is stable at no speed, and is the cheapest of the four at walking pace (2.0): the motion that has to be
-# held is slow, and slow things are cheap to hold. Self-stability and ease of riding are two things. Above 4 m/s all of
-# it is next to nothing.
+# The upright rider is stable at no speed, and is the cheapest of the four at walking pace (2.0): the motion that has to
+# be held is slow, and slow things are cheap to hold. Self-stability and ease of riding are two things. Above 4 m/s all
+# of it is next to nothing.
 
 figure = effort_figure(costs, "after a push of 0.1 rad/s, by the steer torque alone")
 

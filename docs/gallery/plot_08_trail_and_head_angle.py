@@ -2,8 +2,8 @@
 Trail and head angle: a map
 ===========================
 
-The two numbers on every geometry sheet, trail and head angle. Which pairs of them make a bicycle that rights itself with
-its rider's hands on the bar? Everything takes arrays where it takes numbers, so that a map is one call.
+The two numbers on every geometry sheet, trail and head angle. Which pairs of them make a bicycle that rights itself
+with its rider's hands on the bar? Everything takes arrays where it takes numbers, so that a map is one call.
 """
 
 import matplotlib.pyplot as plt
@@ -39,14 +39,14 @@ print(f"the Stratos as it is: stable over {as_it_is[1] - as_it_is[0]:.2f} m/s")
 # %%
 # What is seen
 # ------------
-# Trail is what widens the stable range: colours change from the bottom to the top, and hardly from left to right. With a
-# steep head angle and hardly any trail nothing is stable (white corners). The Stratos (ring) stands well inside, its
+# Trail is what widens the stable range: colours change from the bottom to the top, and hardly from left to right. With
+# a steep head angle and hardly any trail nothing is stable (white corners). The Stratos (ring) stands well inside, its
 # range 3.6 m/s wide.
 #
 # Dashed lines are weave speeds, and they cost what the colours promise: up and to the right, towards a bicycle with a
-# wide range, one must ride ever faster before anything is stable. Only the two numbers change here, nothing that usually
-# goes with them, neither the offset of the fork nor where the masses are. A map like this says which way to go; the
-# design search two pages on says how far one can.
+# wide range, one must ride ever faster before anything is stable. Only the two numbers change here, nothing that
+# usually goes with them, neither the offset of the fork nor where the masses are. A map like this says which way to go;
+# the design search two pages on says how far one can.
 
 figure, axes = plt.subplots(figsize=(7.4, 5.2), layout="constrained")
 degrees, millimetres = np.degrees(head_angles), 1000 * trails
@@ -57,7 +57,9 @@ lines = axes.contour(
     degrees, millimetres, first_weave, levels=[5.0, 5.5, 6.0, 6.5, 7.0, 8.0], colors="white", linestyles="--"
 )
 axes.clabel(lines, fmt="%g m/s", fontsize=8)
-axes.plot(90 - np.degrees(bicycle.steer_axis_tilt), 1000 * bicycle.trail, "o", color="#D55E00", mfc="none", ms=11, mew=2)
+axes.plot(
+    90 - np.degrees(bicycle.steer_axis_tilt), 1000 * bicycle.trail, "o", color="#D55E00", mfc="none", ms=11, mew=2
+)
 axes.annotate(
     "Stratos", (90 - np.degrees(bicycle.steer_axis_tilt), 1000 * bicycle.trail), (10, -12), textcoords="offset points"
 )

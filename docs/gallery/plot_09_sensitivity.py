@@ -32,8 +32,8 @@ for place in found.ranked("weave speed")[:5]:
 # middle of the list: 10 mm and one degree do about the same, 0.1 m/s.
 #
 # Above them are numbers that no sheet has. With hands on the bar the rider's arms are a part of the steering: one
-# hundredth more of the body's mass in them raises the weave speed by 0.15 m/s. The front wheel's inertia about its axle,
-# its gyroscopic effect, works the other way.
+# hundredth more of the body's mass in them raises the weave speed by 0.15 m/s. The front wheel's inertia about its
+# axle, its gyroscopic effect, works the other way.
 
 figure = tornado_figure(found, "weave speed", most=10, width=160.0, title=design.title)
 

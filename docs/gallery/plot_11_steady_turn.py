@@ -30,8 +30,8 @@ for speed, family in families.items():
 # in the hands, as riders of city bicycles know. It grows more than in proportion, because the arms, one stretched, one
 # folded, resist ever more.
 #
-# All three curves end for one reason: at 22 degrees of steer the left hand, the outer one, is at the end of its reach. On
-# the way there the limit is the road: the friction that the tyres must give (right) passes 0.8, dry asphalt, at 36
+# All three curves end for one reason: at 22 degrees of steer the left hand, the outer one, is at the end of its reach.
+# On the way there the limit is the road: the friction that the tyres must give (right) passes 0.8, dry asphalt, at 36
 # degrees of lean at 5 m/s. Below a friction of 0.3, a wet road, no turn leans more than some 16 degrees.
 
 figure, (torque, friction) = plt.subplots(1, 2, figsize=(9.5, 4.2), layout="constrained")
