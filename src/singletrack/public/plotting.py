@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from singletrack.analysis.uncertainty import EigenvalueUncertainty
-    from singletrack.arrays import Array
+    from singletrack.arrays import ArrayLike
     from singletrack.model import LinearModel
 
 __all__ = ["figure_of_model"]
@@ -26,7 +26,7 @@ _FINE, _MOST = 401, 50
 
 def figure_of_model(
     model: LinearModel,
-    speeds: Array,
+    speeds: ArrayLike,
     *,
     width: float,
     title: str,
