@@ -99,7 +99,8 @@ class CoefficientMatrices(LinearModel):
         limit : float
             The vertical axis runs from -limit to limit, in 1/s.
         uncertainty : EigenvalueUncertainty, optional
-            Of a single design: its central 95 % are shaded (:func:`singletrack.analysis.uncertainty.eigenvalue_uncertainty`).
+            Of a single design, whose central 95 % are shaded: see
+            :func:`~singletrack.analysis.uncertainty.eigenvalue_uncertainty`.
 
         Returns
         -------
