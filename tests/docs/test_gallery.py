@@ -19,26 +19,11 @@ from singletrack.commands.door import COMMANDS, command
 GALLERY = Path(__file__).parents[2] / "docs" / "gallery"
 SCRIPTS = sorted(GALLERY.glob("plot_*.py"))
 #: What the gallery owes: each subject is the name of a script.
-SUBJECTS = [
-    "figure_4b",
-    "my_bicycle",
-    "pendulums",
-    "own_posture",
-    "torso_lean",
-    "controllability",
-    "effort",
-    "trail_and_head_angle",
-    "sensitivity",
-    "city_bicycle",
-    "steady_turn",
-    "fall",
-    "four_bar",
-    "soft_fork",
-    "a_million_designs",
-    "geometry_sheet",
-    "compare",
-    "measured_weave",
-]
+SUBJECTS = {
+    "figure_4b", "my_bicycle", "pendulums", "own_posture", "torso_lean", "controllability", "effort", "sensitivity",
+    "trail_and_head_angle", "city_bicycle", "steady_turn", "fall", "four_bar", "soft_fork", "a_million_designs",
+    "geometry_sheet", "compare", "measured_weave",
+}  # fmt: skip
 
 
 def commands_of(script: Path) -> list[str]:

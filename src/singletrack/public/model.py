@@ -119,8 +119,7 @@ class CoefficientMatrices(LinearModel):
         >>> [text.get_text() for text in figure.axes[0].texts][0]
         'weave speed 4.29 m/s'
         """
-        look = {"width": width, "title": title, "kmh": kmh, "limit": limit}
-        return figure_of_model(self, speeds, **look, uncertainty=uncertainty)
+        return figure_of_model(self, speeds, width=width, title=title, kmh=kmh, limit=limit, uncertainty=uncertainty)
 
     def to_latex(self, caption: str = "", digits: int = 5) -> str:
         """Return the matrices and critical speeds of a single design as a table of LaTeX.
