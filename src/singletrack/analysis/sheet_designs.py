@@ -7,12 +7,11 @@ from collections.abc import Mapping  # part of the record
 from typing import TYPE_CHECKING
 
 from singletrack.analysis.designs import Design
-from singletrack.arrays import Array  # part of the record
+from singletrack.arrays import Number  # part of the record
 from singletrack.catalogue import Expected  # part of the public signature
 from singletrack.errors import InputError
 
 if TYPE_CHECKING:
-    from singletrack.arrays import Number
     from singletrack.parameters import Rider
     from singletrack.posture import Options
 
@@ -41,7 +40,7 @@ class SheetDesign(Design):
     """
 
     expected: Expected | None = None
-    entries: Mapping[str, Array] = dataclasses.field(default_factory=dict)
+    entries: Mapping[str, Number] = dataclasses.field(default_factory=dict)
 
     @classmethod
     def of_sheet(

@@ -72,7 +72,7 @@ def resolve(sheet: Sheet, normal: Callable[[], np.ndarray], xp: Any = np, lost: 
 
 def _wheel(found: Geometry, end: str) -> None:
     texts, name = found.sheet.texts, f"{end}_wheel_radius"
-    text = texts.get(f"{end}_wheel_size", texts.get("wheel_size"))
+    text: Any = texts.get(f"{end}_wheel_size", texts.get("wheel_size"))
     given = found.given(name)
     if text is None and given is None:
         other = f"{'front' if end == 'rear' else 'rear'}_wheel_radius"

@@ -134,8 +134,8 @@ def size_of(component: Component, geometry: Geometry, points: Mapping[str, np.nd
         return geometry.xp.sqrt(((end - start) ** 2).sum(-1))
     if component.shape != "hoop" or component.form["to"][0] == "hub":
         return 1.0
-    end = component.assembly.partition(" ")[0]
-    width, bead = geometry.values[f"{end} tyre width"], geometry.values[f"{end} bead"]
+    which = component.assembly.partition(" ")[0]
+    width, bead = geometry.values[f"{which} tyre width"], geometry.values[f"{which} bead"]
     return bead / _USUAL[1] * (width / _USUAL[0]) ** component.form.get("width_power", 0.0)
 
 
