@@ -104,7 +104,7 @@ def design_from(bicycle: str, options: ModelOptions, vary: Sequence[str] | None 
     if options.engine is EngineName.multibody:
         raise InputError("--engine: this command takes the closed form, which has exact derivatives; leave it away")
     made = model_from(bicycle, options)
-    of_sheet = None if vary is None else sheet_design(bicycle, vary, made, options.sitting)
+    of_sheet = None if vary is None else sheet_design(bicycle, vary, made.rider, options.sitting, made.title)
     if of_sheet is not None:
         if options.settings:
             raise InputError("--set: with a geometry sheet, change the sheet (`singletrack new` makes its bicycle)")

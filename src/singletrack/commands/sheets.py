@@ -17,8 +17,7 @@ from singletrack.library import load_bicycle
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-    from singletrack.commands.model import Made
-    from singletrack.parameters import Bicycle
+    from singletrack.parameters import Bicycle, Rider
     from singletrack.posture import Options
 
 __all__ = ["bicycle_named", "sheet_design", "sheet_entries"]
@@ -64,7 +63,9 @@ def bicycle_named(name: str) -> Bicycle:
     return load_bicycle(name) if given is None else _of_sheet(name, lambda: estimate(**given)).bicycle
 
 
-def sheet_design(name: str, vary: Sequence[str], made: Made, options: Options) -> SheetDesign | None:
+def sheet_design(
+    name: str, vary: Sequence[str], rider: Rider | None, options: Options, title: str
+) -> SheetDesign | None:
     """Return the design that a sheet makes, None if it is no sheet.
 
     Parameters
@@ -73,19 +74,20 @@ def sheet_design(name: str, vary: Sequence[str], made: Made, options: Options) -
         Of the file.
     vary : sequence of str
         Entries that will vary: where the sheet does not give them, they begin at what is typical.
-    made : Made
-        From the sheet, with its rider.
+    rider : Rider, optional
+        As he sits on its bicycle.
     options : Options
-        How the rider sits.
+        How he sits.
+    title : str
+        For headings.
     """
     given = sheet_entries(name)
     if given is None:
         return None
-    rider = made.rider
     theirs = () if rider is None else (*rider.values(), "elbow angle")
     mine = [entry for entry in vary if entry not in theirs and not entry.startswith(("spring at ", "damper at "))]
     found = _of_sheet(name, lambda: expected(mine, **given))
-    return SheetDesign.of_sheet(found, rider, options, made.title)
+    return SheetDesign.of_sheet(found, rider, options, title)
 
 
 def _of_sheet(name: str, make: Callable[[], Any]) -> Any:
