@@ -9,7 +9,7 @@ import numpy as np
 
 from singletrack.arrays import Array, as_arrays, is_concrete, refuse_single, require_double
 from singletrack.closed_form.flexible import flexible_matrices, hinge_laws
-from singletrack.closed_form.round_tyres import on_round_tyres
+from singletrack.closed_form.round_tyres import load_of_rider, on_round_tyres
 from singletrack.closed_form.single import single_design
 from singletrack.closed_form.slaved import slaved_matrices
 from singletrack.closed_form.whipple import whipple_matrices
@@ -67,7 +67,7 @@ def coefficients(bicycle: Bicycle, rider: Rider | None = None, options: Options 
     """
     options = Options.of(options)
     single = single_design(bicycle, rider, options)
-    return by_arrays(bicycle, rider, options) if single is None else LinearModel(**single.fields)
+    return by_arrays(bicycle, rider, options) if single is None else single.model
 
 
 @np.errstate(all="ignore")  # sound designs overflow nowhere; faulty ones of a batch are flagged, and NaN
@@ -106,7 +106,7 @@ def by_arrays(bicycle: Bicycle, rider: Rider | None, options: Options) -> Linear
         coordinates=(*COORDINATES, *bodies.freedoms),
         inputs=(*INPUTS, *map(input_name, bodies.freedoms)),
     )
-    return _checked(on_round_tyres(_softened(model, bicycle, posture), bicycle, posture), bicycle.name)
+    return _checked(on_round_tyres(_softened(model, bicycle, posture), bicycle, load_of_rider(posture)), bicycle.name)
 
 
 def _softened(model: LinearModel, bicycle: Bicycle, posture: Posture | None) -> LinearModel:

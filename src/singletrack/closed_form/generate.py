@@ -12,6 +12,7 @@ import numpy as np
 
 from singletrack.closed_form.coefficients import by_arrays
 from singletrack.closed_form.programs import FOLDER, LEAN, MATRICES, RIDERLESS
+from singletrack.closed_form.round_tyres import load_of_rider
 from singletrack.library import load_bicycle, load_rider
 from singletrack.parameters.bicycle import FRAME_GEOMETRY
 from singletrack.posture import Options, margins, seat
@@ -97,7 +98,7 @@ def _nominal(name: str, options: Options | None) -> tuple[Bicycle, Rider | None]
 
 
 def _equations(bicycle: Bicycle, rider: Rider | None, options: Options | None) -> Callable[[Any], tuple[Any, ...]]:
-    """Return the function of the parameters' values that gives matrices and margins."""
+    """Return the function of the parameters' values that gives matrices, the rider's load and margins."""
     count = len(bicycle.values())
 
     def equations(inputs: Any) -> tuple[Any, ...]:
@@ -108,7 +109,8 @@ def _equations(bicycle: Bicycle, rider: Rider | None, options: Options | None) -
         seated = rider.replace(**dict(zip(rider.values(), inputs[count:], strict=True)))
         model = by_arrays(own, seated, options)
         matrices = tuple(jnp.asarray(getattr(model, name)) for name in MATRICES)
-        return (*matrices, jnp.stack(margins(seat(own, seated, options), own, seated)))
+        posture = seat(own, seated, options)
+        return (*matrices, jnp.stack([*load_of_rider(posture), *margins(posture, own, seated)]))
 
     return equations
 

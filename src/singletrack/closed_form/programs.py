@@ -11,8 +11,8 @@ import functools
 import math
 from dataclasses import dataclass
 from importlib.machinery import SourceFileLoader
-from pathlib import Path
 from operator import itemgetter
+from pathlib import Path
 from types import CodeType, FunctionType
 from typing import TYPE_CHECKING, Any
 
@@ -26,12 +26,13 @@ if TYPE_CHECKING:
 __all__ = ["FOLDER", "LEAN", "MATRICES", "RIDERLESS", "Program", "program_named", "program_of"]
 
 FOLDER = Path(__file__).parents[1] / "data" / "programs"
-#: What a program returns first, n x n entries each; with a rider the :class:`~singletrack.posture.Margins` follow.
+#: What a program returns first, n x n entries each; with a rider follow his load
+#: (:func:`~singletrack.closed_form.round_tyres.load_of_rider`) and the :class:`~singletrack.posture.Margins`.
 MATRICES = ("M", "C1", "K0", "K2")
 #: Names of structures: a bicycle alone, and what is added to a posture's file for a torso that may lean.
 RIDERLESS, LEAN = "bicycle", "-torso-lean"
 #: Parameters that, given, make another structure.
-_OTHERWISE = ("rear_tyre_radius", "front_tyre_radius", "frame_torsion_stiffness", "fork_bending_stiffness")
+_SOFT = ("frame_torsion_stiffness", "fork_bending_stiffness")
 _geometry = itemgetter(*FRAME_GEOMETRY)
 #: The meaning of a program's words for numbers.
 _OF_NUMBERS = {
@@ -77,7 +78,7 @@ class Program:
 def program_of(bicycle: Bicycle, rider: Rider | None, options: Options) -> Program | None:
     """Return the program of a model's structure, or None where there is none: it is no common one.
 
-    Springs and dampers are no matter of a program.
+    Springs, dampers and round tyres are added to what a program returns.
 
     Parameters
     ----------
@@ -93,12 +94,17 @@ def program_of(bicycle: Bicycle, rider: Rider | None, options: Options) -> Progr
     ('upright-axial', 2, ('wheel_base', 'trail'))
     """
     own = bicycle.__dict__
-    for name in _OTHERWISE:
+    for name in _SOFT:
         if own[name] is not None:
             return None
     if rider is None:
         return program_named(RIDERLESS)
-    if None in _geometry(own) or own["handlebar_width"] is not None or rider.elbow_drop_angle is not None or rider.shapes:
+    if (
+        None in _geometry(own)
+        or own["handlebar_width"] is not None
+        or rider.elbow_drop_angle is not None
+        or rider.shapes
+    ):
         return None
     if options.fit is not None or not isinstance(options.posture, str):
         return None

@@ -14,7 +14,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from singletrack.closed_form.programs import MATRICES, program_of
-from singletrack.model import COORDINATES, INPUTS
+from singletrack.closed_form.round_tyres import on_round_tyres
+from singletrack.model import COORDINATES, INPUTS, LinearModel
 from singletrack.posture import STEER, TORSO_LEAN, Margins, Options, input_name
 
 if TYPE_CHECKING:
@@ -40,12 +41,11 @@ class Single:
 
     Attributes
     ----------
-    fields : dict
-        Of the :class:`~singletrack.model.LinearModel`.
+    model : LinearModel
     margins : Margins, or None without rider
     """
 
-    fields: dict[str, Any]
+    model: LinearModel
     margins: Margins | None
 
 
@@ -63,8 +63,8 @@ def single_design(bicycle: Bicycle, rider: Rider | None, options: Options) -> Si
     >>> from singletrack import load_bicycle, load_rider
     >>> from singletrack.posture import Options
     >>> found = single_design(load_bicycle("browser"), load_rider("rider-a"), Options("upright"))
-    >>> round(float(found.fields["M"][1, 1]), 4), round(found.margins.arm, 3)
-    (0.4614, 0.87)
+    >>> round(float(found.model.M[1, 1]), 4), round(found.margins.arm, 3)
+    (0.4614, 0.945)
     """
     if not bicycle.is_single or (rider is not None and not rider.is_single):
         return None
@@ -79,12 +79,13 @@ def single_design(bicycle: Bicycle, rider: Rider | None, options: Options) -> Si
         return None
     n = program.freedoms
     size = len(MATRICES) * n * n
-    seated = None if rider is None else Margins(*found[size:])
+    seated = None if rider is None else Margins(*found[size + 2 :])
     if not isfinite(sum(found)) or not _definite(found, n) or not (seated is None or _sits(seated, rider)):
         return None
     M, C1, K0, K2 = np.array(found[:size]).reshape(-1, n, n)
     more = {"coordinates": (*COORDINATES, TORSO_LEAN), "inputs": (*INPUTS, input_name(TORSO_LEAN))} if n > 2 else {}
-    return Single({"M": M, "C1": C1, "K0": K0, "K2": K2, "gravity": bicycle.gravity, **laws, **more}, seated)
+    model = LinearModel(M, C1, K0, K2, bicycle.gravity, **laws, **more)
+    return Single(on_round_tyres(model, bicycle, None if rider is None else found[size : size + 2]), seated)
 
 
 def _needs_no_rider(options: Options) -> bool:
