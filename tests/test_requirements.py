@@ -34,7 +34,7 @@ def locked(name: str) -> dict[str, str]:
     return found
 
 
-@pytest.mark.parametrize("name", ["run.txt", "dev.txt", "tools.txt"])
+@pytest.mark.parametrize("name", ["run.txt", "dev.txt", "docs.txt", "tools.txt"])
 def test_every_package_has_hashes(name: str) -> None:
     assert len(locked(name)) > 20
 
@@ -42,7 +42,8 @@ def test_every_package_has_hashes(name: str) -> None:
 def test_versions_are_those_of_the_constraints() -> None:
     pins = [line.split("==") for line in (ROOT / "constraints.txt").read_text().splitlines() if "==" in line]
     wanted = {normal(name): version for name, version in pins}
-    for name, version in {**locked("dev.txt"), **locked("run.txt")}.items():
+    lists = [locked(name) for name in ("dev.txt", "docs.txt", "run.txt")]
+    for name, version in [pin for one in lists for pin in one.items()]:
         assert wanted.get(name, version) == version, f"{name}: run `make lock`"
 
 
@@ -60,6 +61,7 @@ def test_every_dependency_is_locked() -> None:
 
     assert names(project["dependencies"]) <= set(locked("run.txt")), "run `make lock`"
     assert names([*project["dependencies"], *extras["dev"]]) <= set(locked("dev.txt")), "run `make lock`"
+    assert names([*project["dependencies"], *extras["docs"]]) <= set(locked("docs.txt")), "run `make lock`"
 
 
 def test_build_tools_are_pinned() -> None:

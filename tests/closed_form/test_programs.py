@@ -76,9 +76,9 @@ def test_a_program_gives_the_matrices_of_the_equations_for_arrays(name: str, see
 
 BROWSER = load_bicycle("browser")
 RIDER = load_rider("rider-a").on(BROWSER)
-STILL = {f"front_wheel_{what}": 0.0 for what in ("mass", "inertia_xx", "inertia_yy")}
-ON_AXIS = {"trail": 0.0, "front_frame_x": BROWSER.wheel_base, "front_frame_z": -1e-12, "front_frame_inertia_xz": 0.0}
-STEER_ALONE = {f"front_frame_inertia_{axes}": 0.0 for axes in ("xx", "yy", "zz")}
+ON_AXIS = {"trail": 0.0, "steer_axis_tilt": 0.0, "front_frame_x": BROWSER.wheel_base}
+MASSLESS = {f"front_wheel_{what}": 0.0 for what in ("mass", "radius", "inertia_xx", "inertia_yy")}
+MASSLESS |= {f"front_frame_inertia_{axes}": 0.0 for axes in ("xx", "yy", "zz", "xz")}
 WRONG: dict[str, tuple[Bicycle, Rider | None, Options]] = {
     "arms too short": (BROWSER, RIDER.replace(lower_arm_length=0.1), Options("upright")),
     "arms too long": (BROWSER, RIDER.replace(lower_arm_length=0.05, upper_arm_length=0.9), Options("upright")),
@@ -98,7 +98,7 @@ WRONG: dict[str, tuple[Bicycle, Rider | None, Options]] = {
     "a spring without rider": (BROWSER, None, Options("rigid", springs={"torso lean": 1.0})),
     "a spring at no joint": (BROWSER, RIDER, Options("upright", springs={"torso lean": 1.0})),
     "straight arms that cannot follow": (BROWSER, RIDER, Options("leaned", shoulder="axial", arms="straight")),
-    "a steer that moves no mass": (BROWSER.replace(**STILL, **ON_AXIS, **STEER_ALONE), None, Options()),
+    "a steer that moves no mass": (BROWSER.replace(**ON_AXIS, **MASSLESS), None, Options()),
 }
 
 

@@ -74,7 +74,7 @@ def _blocks(loops: Loops, own: np.ndarray) -> Callable[[Array], Array] | None:
 
 def _adjugates(loops: Loops, own: np.ndarray) -> tuple[list[Array], list[Array], Array]:
     """Return columns, adjugates' rows (3, L, N) and determinants (L, N) of loops with three joints of their own."""
-    mine = loops.columns[:, np.arange(len(own))[:, None], own]  # type: ignore[index]
+    mine = loops.columns[:, np.arange(len(own))[:, None], own]
     one, two, three = (mine[:, :, k] for k in range(3))
     rows = [cross3(two, three), cross3(three, one), cross3(one, two)]
     return [one, two, three], rows, dot3(one, rows[0])

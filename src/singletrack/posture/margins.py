@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
-from singletrack.arrays import Array, as_arrays
+from singletrack.arrays import Scalar, as_arrays
 from singletrack.body.reach import reach
 from singletrack.posture.bodies import slaved_mass
 from singletrack.posture.inverses import squared_condition
@@ -33,11 +33,11 @@ class Margins(NamedTuple):
         That of the free joint as a fraction of the whole rider's about the rear contact; one without free joints.
     """
 
-    arm: Array
-    leg: Array
-    residual: Array
-    condition: Array
-    inertia: Array
+    arm: Scalar
+    leg: Scalar
+    residual: Scalar
+    condition: Scalar
+    inertia: Scalar
 
 
 def margins(posture: Posture, bicycle: Bicycle, rider: Rider) -> Margins:
