@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
     from matplotlib.figure import Figure
 
-    from singletrack.arrays import Array, Numbers, Scalar
+    from singletrack.arrays import Array, ArrayLike, Number
     from singletrack.parameters import Bicycle, Rider
     from singletrack.posture import Mechanism
 
@@ -51,7 +51,7 @@ class CoefficientMatrices(LinearModel):
         """Return the matrices as a table, for notebooks."""
         return table_of_model(self)
 
-    def eigenvalues(self, speeds: Numbers) -> Array:
+    def eigenvalues(self, speeds: ArrayLike) -> Array:
         """Return the eigenvalues at forward speeds, sorted by real then imaginary part.
 
         Parameters
@@ -66,7 +66,7 @@ class CoefficientMatrices(LinearModel):
         """
         return eigenvalues(self, speeds)
 
-    def modes(self, speeds: Numbers) -> Modes:
+    def modes(self, speeds: ArrayLike) -> Modes:
         """Return the eigenvalues as named modes, followed through the speeds (see :class:`Modes`)."""
         return modes(self, speeds)
 
@@ -76,7 +76,7 @@ class CoefficientMatrices(LinearModel):
 
     def plot(
         self,
-        speeds: Numbers = (0.0, 10.0),
+        speeds: ArrayLike = (0.0, 10.0),
         *,
         width: float = 84.0,
         title: str = "",
@@ -129,7 +129,7 @@ class CoefficientMatrices(LinearModel):
         """
         return latex_table(self, self.critical_speeds(), caption, digits)
 
-    def state_space(self, speed: Numbers) -> StateSpace:
+    def state_space(self, speed: ArrayLike) -> StateSpace:
         """Return the equations at one or several forward speeds in m/s as first-order systems (:class:`StateSpace`)."""
         return state_space(self, speed)
 
@@ -142,9 +142,9 @@ def coefficients(
     *,
     arms: str | None = None,
     torso_lean: bool = False,
-    springs: Mapping[str, Scalar] | None = None,
-    dampers: Mapping[str, Scalar] | None = None,
-    fit: Scalar | None = None,
+    springs: Mapping[str, Number] | None = None,
+    dampers: Mapping[str, Number] | None = None,
+    fit: Number | None = None,
 ) -> CoefficientMatrices:
     """Return the linearised equations of motion of a bicycle, alone or with a rider.
 

@@ -15,7 +15,7 @@ from singletrack.present.words import KILOMETRES, METRES
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from singletrack.arrays import Numbers
+    from singletrack.arrays import ArrayLike
     from singletrack.model import LinearModel
 
 __all__ = ["figure_of_model"]
@@ -24,7 +24,7 @@ _FINE, _MOST = 401, 50
 
 
 def figure_of_model(
-    model: LinearModel, speeds: Numbers, *, width: float, title: str, kmh: bool, limit: float
+    model: LinearModel, speeds: ArrayLike, *, width: float, title: str, kmh: bool, limit: float
 ) -> Figure:
     """Return a figure of eigenvalues over the speed (arguments and errors as :meth:`CoefficientMatrices.plot`).
 
