@@ -19,6 +19,7 @@ if TYPE_CHECKING:
 
     from matplotlib.figure import Figure
 
+    from singletrack.analysis.uncertainty import EigenvalueUncertainty
     from singletrack.arrays import Array, ArrayLike, Number
     from singletrack.parameters import Bicycle, Rider
     from singletrack.posture import Mechanism
@@ -82,6 +83,7 @@ class CoefficientMatrices(LinearModel):
         title: str = "",
         kmh: bool = False,
         limit: float = 10.0,
+        uncertainty: EigenvalueUncertainty | None = None,
     ) -> Figure:
         """Return a figure of the eigenvalues over the forward speed; notebooks show it.
 
@@ -97,6 +99,9 @@ class CoefficientMatrices(LinearModel):
             Show speeds in km/h.
         limit : float
             The vertical axis runs from -limit to limit, in 1/s.
+        uncertainty : EigenvalueUncertainty, optional
+            Of a single design, whose central 95 % are shaded: see
+            :func:`~singletrack.analysis.uncertainty.eigenvalue_uncertainty`.
 
         Returns
         -------
@@ -106,7 +111,7 @@ class CoefficientMatrices(LinearModel):
         Raises
         ------
         InputError
-            For a batch of more than one axis, or a speed that is negative or not finite.
+            For a batch of more than one axis, or one with ``uncertainty``; for a speed that is negative or not finite.
 
         Examples
         --------
@@ -115,7 +120,7 @@ class CoefficientMatrices(LinearModel):
         >>> [text.get_text() for text in figure.axes[0].texts][0]
         'weave speed 4.29 m/s'
         """
-        return figure_of_model(self, speeds, width=width, title=title, kmh=kmh, limit=limit)
+        return figure_of_model(self, speeds, width=width, title=title, kmh=kmh, limit=limit, uncertainty=uncertainty)
 
     def to_latex(self, caption: str = "", digits: int = 5) -> str:
         """Return the matrices and critical speeds of a single design as a table of LaTeX.
