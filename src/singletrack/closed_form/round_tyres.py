@@ -16,7 +16,7 @@ from __future__ import annotations
 import dataclasses
 from typing import TYPE_CHECKING
 
-from singletrack.arrays import Array, as_arrays, stack
+from singletrack.arrays import Number, as_arrays, stack
 from singletrack.parameters.bodies import bicycle_bodies
 from singletrack.parameters.flexible import soft_hinges
 
@@ -64,7 +64,7 @@ def on_round_tyres(model: LinearModel, bicycle: Bicycle, posture: Posture | None
     return dataclasses.replace(model, K0=K0)
 
 
-def _loads(bicycle: Bicycle, posture: Posture | None) -> tuple[Array, Array]:
+def _loads(bicycle: Bicycle, posture: Posture | None) -> tuple[Number, Number]:
     """Return the masses that rest on the front and on the rear wheel, kg, (...)."""
     own = bicycle_bodies(bicycle).values()
     mass = sum(body.mass for body in own)

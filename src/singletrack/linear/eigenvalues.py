@@ -13,7 +13,7 @@ from singletrack.linear.pencil import pencil
 from singletrack.linear.quartic.solve import CHUNK, quartic_roots, solve_into
 
 if TYPE_CHECKING:
-    from singletrack.arrays import Array
+    from singletrack.arrays import Array, ArrayLike
     from singletrack.linear.characteristic import CharacteristicPolynomial
     from singletrack.model import LinearModel
 
@@ -24,7 +24,7 @@ _PROBLEMS = 4096
 __all__ = ["checked_speeds", "eigenmotions", "eigenvalues"]
 
 
-def checked_speeds(speeds: Array) -> np.ndarray:
+def checked_speeds(speeds: ArrayLike) -> np.ndarray:
     """Return speeds as an array (n,) in m/s.
 
     Raises
@@ -47,7 +47,7 @@ def checked_speeds(speeds: Array) -> np.ndarray:
     return array
 
 
-def eigenvalues(model: LinearModel, speeds: Array) -> Array:
+def eigenvalues(model: LinearModel, speeds: ArrayLike) -> Array:
     """Return the eigenvalues (..., k, 2 n) in 1/s at speeds (k,) in m/s, sorted by real then imaginary part.
 
     Roots of a pair are exact conjugates, real roots have an imaginary part of exactly zero. Designs of a batch that
@@ -116,7 +116,7 @@ def _by_lapack(model: LinearModel, v: np.ndarray) -> np.ndarray:
     return roots.reshape(*batch, *roots.shape[1:])
 
 
-def _one_axis(speeds: Array) -> Array:
+def _one_axis(speeds: ArrayLike) -> Array:
     xp, (v,) = as_arrays(speeds)
     return xp.reshape(v, (-1,))
 
@@ -167,7 +167,7 @@ def monic_quartic(M: Array, damping: Array, stiffness: Array) -> tuple[Array, Ar
     return b, c, mixed(damping, stiffness) / lead, mixed(stiffness, stiffness) / 2 / lead
 
 
-def eigenmotions(model: LinearModel, speeds: Array, roots: np.ndarray) -> np.ndarray:
+def eigenmotions(model: LinearModel, speeds: ArrayLike, roots: np.ndarray) -> np.ndarray:
     """Return the eigenmotion of each root: every coordinate, with lean normalised to one.
 
     Parameters

@@ -31,7 +31,7 @@ from singletrack.model import COORDINATES
 if TYPE_CHECKING:
     import xarray
 
-    from singletrack.arrays import Array
+    from singletrack.arrays import ArrayLike
     from singletrack.linear.characteristic import CharacteristicPolynomial
     from singletrack.model import LinearModel
 
@@ -131,7 +131,7 @@ class Modes:
         )
 
 
-def modes(model: LinearModel, speeds: Array) -> Modes:
+def modes(model: LinearModel, speeds: ArrayLike) -> Modes:
     """Return the named modes of designs (...) at speeds (k,).
 
     Parameters

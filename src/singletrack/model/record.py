@@ -10,11 +10,11 @@ from __future__ import annotations
 
 import dataclasses
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, Self
+from typing import TYPE_CHECKING, Any, Self, cast
 
 import numpy as np
 
-from singletrack.arrays import Array, Fault, is_concrete, namespace, valid_mask
+from singletrack.arrays import Array, Fault, Number, is_concrete, namespace, valid_mask
 from singletrack.errors import InputError
 from singletrack.model.written import read_fields
 
@@ -70,11 +70,12 @@ class LinearModel:
     C1: Array
     K0: Array
     K2: Array
-    gravity: Array
+    gravity: Number
     faults: tuple[Fault, ...] = ()
-    C0: Array = field(default=None, kw_only=True)
-    S0: Array = field(default=None, kw_only=True)
-    B: Array = field(default=None, kw_only=True)
+    # None: zero, and B takes each input to the coordinate in its place.
+    C0: Array = field(default=cast("Array", None), kw_only=True)
+    S0: Array = field(default=cast("Array", None), kw_only=True)
+    B: Array = field(default=cast("Array", None), kw_only=True)
     coordinates: tuple[str, ...] = field(default=COORDINATES, kw_only=True)
     inputs: tuple[str, ...] = field(default=INPUTS, kw_only=True)
 
@@ -114,12 +115,12 @@ class LinearModel:
         """True for the designs of the batch that nothing is wrong with, shape (...)."""
         return valid_mask(self.faults, self.shape)
 
-    def damping(self, speed: Array) -> Array:
+    def damping(self, speed: Number) -> Array:
         """Return C0 + v C1, shape (..., n, n), in N m s, at speeds (...) in m/s."""
         moving = _matrixwise(speed, self.C1) * self.C1
         return moving if self.is_undamped else self.C0 + moving
 
-    def stiffness(self, speed: Array) -> Array:
+    def stiffness(self, speed: Number) -> Array:
         """Return S0 + g K0 + v^2 K2, shape (..., n, n), in N m, at speeds (...) in m/s."""
         moving = _matrixwise(self.gravity, self.K0) * self.K0 + _matrixwise(speed, self.K2) ** 2 * self.K2
         return moving if self.is_undamped else self.S0 + moving
@@ -138,7 +139,7 @@ class LinearModel:
         of_batch = index if isinstance(index, tuple) else (index,)
         of_matrix = (*of_batch, slice(None), slice(None)) if any(i is Ellipsis for i in of_batch) else of_batch
         some: dict[str, Any] = {name: getattr(whole, name)[of_matrix] for name in (*_SQUARE, "B")}
-        some["gravity"] = whole.gravity[of_batch]
+        some["gravity"] = np.asarray(whole.gravity)[of_batch]
         return dataclasses.replace(whole, **some, faults=tuple(fault[index] for fault in whole.faults))
 
     def to_dict(self) -> dict[str, Any]:
@@ -230,5 +231,5 @@ def concatenate(models: Sequence[LinearModel]) -> LinearModel:
     return dataclasses.replace(first, **joined, faults=tuple(faults))
 
 
-def _matrixwise(factor: Array, matrix: Array) -> Array:
+def _matrixwise(factor: Number, matrix: Array) -> Array:
     return namespace(factor, matrix).asarray(factor)[..., None, None]

@@ -5,7 +5,7 @@ from singletrack.posture.bodies import SlavedMass, slaved_mass
 from singletrack.posture.mechanism import HANDLEBAR, Mechanism
 from singletrack.posture.options import ARMS, POSTURES, SHOULDERS, STEER, Options, input_name
 from singletrack.posture.residual import loop_residual
-from singletrack.posture.seated import Joint, Loop, Posture, seat, steer_axis
+from singletrack.posture.seated import Loop, Posture, SeatedJoint, seat, steer_axis
 from singletrack.posture.segment_motion import SlavedBodies, slaved_bodies
 from singletrack.posture.shipped import TORSO_LEAN, is_posture, load_posture, mechanism_of, named_posture
 from singletrack.posture.steered import moved_skeleton, steered_skeleton
@@ -17,11 +17,11 @@ __all__ = [
     "SHOULDERS",
     "STEER",
     "TORSO_LEAN",
-    "Joint",
     "Loop",
     "Mechanism",
     "Options",
     "Posture",
+    "SeatedJoint",
     "SlavedBodies",
     "SlavedMass",
     "input_name",

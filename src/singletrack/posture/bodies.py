@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from singletrack.arrays import Array, as_arrays, is_concrete, stack
+from singletrack.arrays import Array, Number, as_arrays, is_concrete, stack
 from singletrack.arrays.faults import Fault, refuse_single
 from singletrack.errors import PostureError
 from singletrack.posture.laws import laws_of
@@ -63,16 +63,16 @@ class SlavedMass:
         Designs of a batch that cannot sit or steer.
     """
 
-    moment_x: Array
-    moment_z: Array
-    inertia_xx: Array
-    inertia_xz: Array
-    inertia_zz: Array
-    spin_x: Sequence[Array] = (0.0,)
-    spin_z: Sequence[Array] = (0.0,)
-    lateral: Sequence[Array] = (0.0,)
-    inner: Sequence[Array] = (0.0,)
-    sinking: Sequence[Array] = (0.0,)
+    moment_x: Number
+    moment_z: Number
+    inertia_xx: Number
+    inertia_xz: Number
+    inertia_zz: Number
+    spin_x: Sequence[Number] = (0.0,)
+    spin_z: Sequence[Number] = (0.0,)
+    lateral: Sequence[Number] = (0.0,)
+    inner: Sequence[Number] = (0.0,)
+    sinking: Sequence[Number] = (0.0,)
     freedoms: tuple[str, ...] = ()
     damping: Array | None = None
     stiffness: Array | None = None

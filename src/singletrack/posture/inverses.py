@@ -57,7 +57,7 @@ def solver_of(
 def _blocks(loops: Loops, own: np.ndarray) -> Callable[[Array], Array] | None:
     """Return the solver of loops with three joints each of their own, or None if one is nearly singular."""
     count = len(own)
-    mine = loops.columns[:, np.arange(count)[:, None], own]  # type: ignore[index]
+    mine = loops.columns[:, np.arange(count)[:, None], own]
     one, two, three = (mine[:, :, k] for k in range(3))
     rows = [cross3(two, three), cross3(three, one), cross3(one, two)]
     volume = dot3(one, rows[0])

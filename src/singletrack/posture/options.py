@@ -8,7 +8,7 @@ from typing import Self
 
 import numpy as np
 
-from singletrack.arrays import Array, is_concrete
+from singletrack.arrays import Number, is_concrete
 from singletrack.errors import InputError, unknown_name
 from singletrack.library import shipped
 from singletrack.posture.mechanism import Mechanism
@@ -65,9 +65,9 @@ class Options:
     shoulder: str | None = None
     arms: str | None = None
     torso_lean: bool = False
-    springs: Mapping[str, Array] = field(default_factory=dict)
-    dampers: Mapping[str, Array] = field(default_factory=dict)
-    fit: Array | None = None
+    springs: Mapping[str, Number] = field(default_factory=dict)
+    dampers: Mapping[str, Number] = field(default_factory=dict)
+    fit: Number | None = None
 
     def __post_init__(self) -> None:
         if isinstance(self.posture, str) and self.posture not in POSTURES and self.posture not in shipped("posture"):
@@ -130,7 +130,7 @@ class Options:
                 raise InputError(f"{what} needs a rider; allowed without one: {allowed}")
 
 
-def _refuse_negative(what: str, value: Array, unit: str) -> None:
+def _refuse_negative(what: str, value: Number, unit: str) -> None:
     if not is_concrete(value):
         return
     numbers = np.asarray(value)
