@@ -19,6 +19,7 @@ from singletrack.parameters.bicycle import FRAME_GEOMETRY
 from singletrack.parameters.hints import unknown_parameter
 from singletrack.parameters.units import parse_quantity
 from singletrack.public import CoefficientMatrices
+from singletrack.public.origin import Origin
 
 __all__ = ["Made", "answer_words", "model_from", "seated"]
 
@@ -49,7 +50,8 @@ def model_from(bicycle: str, options: ModelOptions) -> Made:
     """
     record, rider, changed = seated(load_bicycle(bicycle), options)
     maker = importlib.import_module(f"singletrack.{options.engine.name}")  # a door: the engine's libraries are heavy
-    model = CoefficientMatrices.of(_answered(maker.coefficients(record, rider, options.sitting), options))
+    origin = None if rider is None else Origin(record, rider, options.sitting)
+    model = CoefficientMatrices.of(_answered(maker.coefficients(record, rider, options.sitting), options), origin)
     rider = None if rider is None else rider.on(record)
     warn_of_oddities(record, rider)
     who = "" if rider is None else f" with {rider.name or 'rider'}, {options.sitting.title}"

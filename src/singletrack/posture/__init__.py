@@ -2,13 +2,14 @@
 
 from singletrack.posture.arguments import require_bicycle, require_posture, require_records
 from singletrack.posture.bodies import SlavedMass, slaved_mass
+from singletrack.posture.cut import CutLoops, cut_loops
 from singletrack.posture.mechanism import HANDLEBAR, Mechanism
 from singletrack.posture.options import ARMS, POSTURES, SHOULDERS, STEER, Options, input_name
 from singletrack.posture.residual import loop_residual
 from singletrack.posture.seated import Loop, Posture, SeatedJoint, seat, steer_axis
 from singletrack.posture.segment_motion import SlavedBodies, slaved_bodies
 from singletrack.posture.shipped import TORSO_LEAN, is_posture, load_posture, mechanism_of, named_posture
-from singletrack.posture.steered import moved_skeleton, steered_skeleton
+from singletrack.posture.steered import lateral_work, moved_skeleton, steered_skeleton
 
 __all__ = [
     "ARMS",
@@ -17,6 +18,7 @@ __all__ = [
     "SHOULDERS",
     "STEER",
     "TORSO_LEAN",
+    "CutLoops",
     "Loop",
     "Mechanism",
     "Options",
@@ -24,8 +26,10 @@ __all__ = [
     "SeatedJoint",
     "SlavedBodies",
     "SlavedMass",
+    "cut_loops",
     "input_name",
     "is_posture",
+    "lateral_work",
     "load_posture",
     "loop_residual",
     "mechanism_of",
