@@ -36,8 +36,9 @@ exclude_patterns = [
     "_ext",
     "gallery",
     "**/.ipynb_checkpoints",
-    "auto_gallery/**/*.ipynb",
-    "auto_gallery/**/*.md5",
+    "auto_gallery/*.ipynb",
+    "sg_execution_times.rst",
+    "auto_gallery/sg_execution_times.rst",
 ]
 highlight_language = "none"
 # Every function, method, module and constant that is named exists. Words of types ("sequence of str") are not names.
