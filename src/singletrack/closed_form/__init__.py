@@ -2,6 +2,7 @@
 
 from singletrack.closed_form.coefficients import coefficients
 from singletrack.closed_form.outputs import rider_outputs
+from singletrack.closed_form.single import Single, single_design
 from singletrack.closed_form.tyres import Tyre, TyreModel, tyre_model
 
-__all__ = ["Tyre", "TyreModel", "coefficients", "rider_outputs", "tyre_model"]
+__all__ = ["Single", "Tyre", "TyreModel", "coefficients", "rider_outputs", "single_design", "tyre_model"]

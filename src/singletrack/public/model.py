@@ -59,7 +59,9 @@ class CoefficientMatrices(LinearModel):
         origin : Origin, optional
             What it was made from, of which the rider's joints and hands can be asked.
         """
-        return cls(**{f.name: getattr(model, f.name) for f in dataclasses.fields(LinearModel)}, origin=origin)
+        asked = object.__new__(cls)
+        asked.__dict__.update(model.__dict__, origin=origin)  # what is a model already need not be looked at again
+        return asked
 
     def __repr__(self) -> str:
         return lines_of_model(self)
@@ -247,6 +249,8 @@ def coefficients(
     require_records(bicycle, rider)
     require_posture(posture)
     options = Options(named_posture(posture), shoulder, arms, torso_lean, springs or {}, dampers or {}, fit)
-    warn_of_oddities(bicycle, rider)
-    origin = None if rider is None else Origin(bicycle, rider, options)
-    return CoefficientMatrices.of(closed_form.coefficients(bicycle, rider, options), origin)
+    single = closed_form.single_design(bicycle, rider, options)
+    shares = None if single is None or single.margins is None else single.margins.shares
+    warn_of_oddities(bicycle, rider, shares)
+    model = closed_form.coefficients(bicycle, rider, options) if single is None else single.model
+    return CoefficientMatrices.of(model, None if rider is None else Origin(bicycle, rider, options))
