@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-import re
 import copy
 import pickle
+import re
 from decimal import Decimal
 from fractions import Fraction
 from typing import Any
