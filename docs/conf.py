@@ -34,8 +34,7 @@ exclude_patterns = [
     "_ext",
     "gallery",
     "**/.ipynb_checkpoints",
-    "auto_gallery/**/*.ipynb",
-    "auto_gallery/**/*.md5",
+    "auto_gallery/*.ipynb",
 ]
 highlight_language = "none"
 # Every function, method, module and constant that is named exists. Words of types ("sequence of str") are not names.
