@@ -306,7 +306,7 @@ def test_no_traceback_reaches_a_user(run, monkeypatch):
     def fail(_):
         raise ZeroDivisionError("what nobody thought of")
 
-    monkeypatch.setattr("singletrack.commands.model.load_bicycle", fail)
+    monkeypatch.setattr("singletrack.commands.sheets.load_bicycle", fail)
     code, out, err = run("coefficients", "stratos")
     assert (code, out) == (1, "")
     assert "internal error, please report it: ZeroDivisionError: what nobody thought of" in err
