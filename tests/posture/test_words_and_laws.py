@@ -10,6 +10,7 @@ from singletrack.library.template import template
 from singletrack.posture import load_posture, seat
 from singletrack.posture.describe import mechanism_lines
 from singletrack.posture.inverses import _inverse
+from singletrack.posture.mechanism import JointPlan, LoopPlan
 from singletrack.posture.mechanism_file import parse_mechanism
 
 BICYCLE, RIDER = load_bicycle("browser"), load_rider("rider-a")
@@ -18,14 +19,14 @@ HINGE = 'name = "right elbow"\nparent = "right shoulder rotation"\npoint = "righ
 HAND = 'to = "handlebar"'
 
 
-def joint(text: str) -> object:
+def joint(text: str) -> JointPlan:
     """Return the plan of the right elbow of the template with that text in place of its own."""
     changed = TEXT.replace(HINGE, text)
     assert changed != TEXT
     return {plan.name: plan for plan in parse_mechanism(changed, "mine.toml").joints}["right elbow"]
 
 
-def hand(more: str) -> object:
+def hand(more: str) -> LoopPlan:
     return parse_mechanism(TEXT.replace(HAND, f"{HAND}\n{more}", 1), "mine.toml").loops[0]
 
 
