@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 import pytest
 
@@ -10,8 +12,10 @@ from singletrack.library.template import template
 from singletrack.posture import load_posture, seat
 from singletrack.posture.describe import mechanism_lines
 from singletrack.posture.inverses import _inverse
-from singletrack.posture.mechanism import JointPlan, LoopPlan
 from singletrack.posture.mechanism_file import parse_mechanism
+
+if TYPE_CHECKING:
+    from singletrack.posture.mechanism import JointPlan, LoopPlan
 
 BICYCLE, RIDER = load_bicycle("browser"), load_rider("rider-a")
 TEXT = template("posture")
