@@ -14,6 +14,8 @@ from typing import TYPE_CHECKING, Any
 from rich.console import Console, ConsoleDimensions
 from rich.measure import Measurement
 
+from singletrack.markup import printable
+
 if TYPE_CHECKING:
     from rich.console import ConsoleOptions, RenderResult
     from rich.text import Text
@@ -41,24 +43,8 @@ _READABLE = {
     "φ": "phi",
     "δ": "delta",
 }
-# Invisible characters that move or reorder what follows them.
-_HIDDEN = {"Cc", "Cf", "Cs", "Zl", "Zp"}
 _ERRORS = "singletrack.readable"
 _WIDEST = 1000
-
-
-def printable(text: str) -> str:
-    r"""Return a text with every control character but line ends and tabs shown, as Python would write it.
-
-    >>> printable("a\x1b[31mb")
-    'a\\x1b[31mb'
-    """
-    if text.isascii() and text.isprintable():
-        return text
-    return "".join(
-        c if c in "\n\t" or unicodedata.category(c) not in _HIDDEN else c.encode("unicode_escape").decode()
-        for c in text
-    )
 
 
 def readable(text: str, encoding: str) -> str:
