@@ -14,7 +14,7 @@ __all__ = ["run"]
 def run(bicycle: BicycleArgument, options: ModelOptions, json: JsonOption = False) -> None:
     """Print weave and capsize speeds and the stable ranges."""
     made = model_from(bicycle, options)
-    speeds = made.model.critical_speeds()
+    speeds = made.asked.critical_speeds()
     if json:
         print_json(speeds.to_dict())
     else:
