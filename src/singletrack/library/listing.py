@@ -14,7 +14,7 @@ def listing() -> list[str]:
     Examples
     --------
     >>> listing()[0], listing()[1][:29]
-    ('bicycles', '  benchmark         Benchmark')
+    ('bicycles', '  benchmark       The benchma')
     """
     lines = []
     for kind in ("bicycle", "rider", "posture"):
