@@ -11,8 +11,9 @@ from typing import TYPE_CHECKING, cast
 from singletrack.body.fit import elbow_angle, fit
 from singletrack.body.oddities import warn_of_oddities
 from singletrack.commands.model_options import ModelOptions, pairs
+from singletrack.commands.sheets import bicycle_named
 from singletrack.errors import InputError, OddityWarning
-from singletrack.library import load_bicycle, load_rider
+from singletrack.library import load_rider
 from singletrack.library.load import override
 from singletrack.model import LinearModel
 from singletrack.parameters import Bicycle, Rider
@@ -59,7 +60,7 @@ def model_from(bicycle: str, options: ModelOptions) -> Made:
     SingletrackError
         If there is no such thing, or a value is not allowed.
     """
-    record, rider, changed = seated(load_bicycle(bicycle), options)
+    record, rider, changed = seated(bicycle_named(bicycle), options)
     maker = importlib.import_module(f"singletrack.{options.engine.name}")  # a door: the engine's libraries are heavy
     model = _answered(maker.coefficients(record, rider, options.sitting), options)
     rider = None if rider is None else rider.on(record)
