@@ -1,32 +1,14 @@
-"""What is put on a screen: whatever it is, it is text, never markup; tables in HTML for notebooks."""
+"""Tables in HTML for notebooks; whatever is put in is text, never markup."""
 
 from __future__ import annotations
 
 import html
-import unicodedata
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
-__all__ = ["printable", "table", "told"]
-
-# Invisible characters that move or reorder what follows them.
-_HIDDEN = {"Cc", "Cf", "Cs", "Zl", "Zp"}
-
-
-def printable(text: str) -> str:
-    r"""Return a text with every control character but line ends and tabs shown, as Python would write it.
-
-    >>> printable("a\x1b[31mb")
-    'a\\x1b[31mb'
-    """
-    if text.isascii() and text.isprintable():
-        return text
-    return "".join(
-        c if c in "\n\t" or unicodedata.category(c) not in _HIDDEN else c.encode("unicode_escape").decode()
-        for c in text
-    )
+__all__ = ["table", "told"]
 
 
 def told(value: float, digits: int = 6) -> str:

@@ -6,7 +6,7 @@ import io
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
-from singletrack.markup import printable
+from singletrack.present.readable import printable
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
