@@ -75,6 +75,7 @@ sphinx_gallery_conf = {
     "gallery_dirs": "auto_gallery",
     "filename_pattern": r"\.py$",
     "image_scrapers": ("matplotlib", "returned_figures"),
+    "capture_repr": (),  # scripts print what they have to say
     "within_subsection_order": "FileNameSortKey",
     "download_all_examples": False,
     "remove_config_comments": True,
@@ -90,6 +91,7 @@ html_title = "singletrack"
 html_copy_source = False
 html_show_sourcelink = False
 html_static_path = ["_static", str(HERE.parent / "src" / "singletrack" / "webpage" / "static" / "page.html")]
+html_context = {"default_mode": "auto"}
 html_css_files = ["singletrack.css"]
 html_theme_options = {
     "logo": {"text": "singletrack"},
