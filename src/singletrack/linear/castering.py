@@ -15,7 +15,16 @@ def castering_grows(roots: np.ndarray, slower: np.ndarray, columns: np.ndarray) 
 
     Castering decays, as fast as the speed is high; real roots of further coordinates stay as they are. Where the name
     was left for a root that falls, and a further coordinate has one that decays the faster the higher the speed, they
-    change names. ``slower`` are the roots at half the speed, in any order.
+    change names.
+
+    Parameters
+    ----------
+    roots : complex array, shape (m, N)
+        At the highest speed.
+    slower : complex array, shape (m, N)
+        At half that speed, in any order.
+    columns : int array, shape (m, N)
+        Of the roots.
     """
 
     def nearest(wanted: np.ndarray) -> np.ndarray:
@@ -38,6 +47,17 @@ def castering_apart(
     """Return columns (r, N) where pairs of castering and a further coordinate split: castering grows with the speed.
 
     Towards higher speeds it has the faster of the two real roots then, towards lower ones the slower.
+
+    Parameters
+    ----------
+    columns : int array, shape (r, N)
+        Of the places before the split.
+    block : int array, shape (r,)
+        First place of what may split, -1 for none.
+    before, after : complex array, shape (r, N)
+        Roots in their places.
+    up : bool
+        Whether the split is towards higher speeds.
     """
     row = np.flatnonzero(block >= 0)
     row = row[(before[row, block[row]].imag != 0) & (after[row, block[row]].imag == 0)]
