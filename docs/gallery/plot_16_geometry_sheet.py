@@ -35,7 +35,7 @@ for name, guess in guesses.items():
 # ------------
 # Left, what the sheet alone knows of the speed from which the bicycle is stable under a rider with free hands: 5.3 m/s,
 # give or take 0.3. That is what the twenty-five parameters, most of them guessed, come to. Right, how uncertain single
-# parameters are, in per cent; three minutes with a kitchen scale take about a third off the inertias, and some of it off
+# parameters are, in per cent; three minutes with a kitchen scale take a third off the inertias, and some of it off
 # the speed.
 #
 # For the measured Stratos and Browser all parameters estimated this way are within two of their standard deviations;
