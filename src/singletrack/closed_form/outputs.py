@@ -1,4 +1,4 @@
-"""Joint angles of the rider and forces of the hands, as linear outputs of the model (derived in docs/theory.md).
+"""Joint angles of the rider and forces of the hands, as linear outputs of the model (docs/theory/closed-form.md).
 
 Cut the loops: then every joint s is a coordinate of its own, with equations M_s q" + ... = f_s + G^T m, where q are all
 coordinates and m what keeps the loops' conditions g(s, steer) = 0. At rest the joints that the loops hold give m_0,

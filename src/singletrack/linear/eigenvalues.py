@@ -83,8 +83,19 @@ def eigenvalues(model: LinearModel, speeds: ArrayLike) -> Array:
             roots = _roots_at(polynomials, v).reshape(*batch, len(v), 4)
         else:
             roots = quartic_roots(*monic_quartic(model.M, *at_speeds(model, v)))
+    lost = np.isnan(roots[..., 0].real)
+    if lost.any() and (lost := lost & model.valid[..., None]).any():
+        roots = _told_otherwise(model, v, roots, lost)
     if model.faults:
         roots = np.where(model.valid[..., None, None], roots, np.nan)
+    return roots
+
+
+def _told_otherwise(model: LinearModel, v: np.ndarray, roots: np.ndarray, lost: np.ndarray) -> np.ndarray:
+    """Return roots (..., k, 4) with the lost ones, whose quartic was out of range, found in other units."""
+    designs = lost.any(axis=-1)
+    some = model.broadcast_to(model.shape)[designs]
+    roots[designs] = np.where(lost[designs][..., None], _by_lapack(some, v), roots[designs])
     return roots
 
 
