@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pytest
 
@@ -17,7 +19,8 @@ def test_the_loop_over_numbers_is_the_kernel_over_arrays(count: int) -> None:
     rng = np.random.default_rng(count)
     coefficients = rng.standard_normal((4, count)) * 10.0 ** rng.integers(-3, 4, (4, 1))
     results = []
-    for solve in (_roots_into, roots_into, roots_into.py_func):
+    plain: Any = roots_into
+    for solve in (_roots_into, roots_into, plain.py_func):
         roots, good = np.full((count, 4), np.nan, dtype=complex), np.zeros(count, dtype=bool)
         with np.errstate(all="ignore"):
             solve(roots, good, *coefficients)
