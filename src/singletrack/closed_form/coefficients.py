@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from singletrack.arrays import Array, as_arrays, is_concrete, refuse_single, require_double
+from singletrack.closed_form.batches import batch_shape, in_parts
 from singletrack.closed_form.flexible import flexible_matrices, hinge_laws
 from singletrack.closed_form.round_tyres import on_round_tyres
 from singletrack.closed_form.slaved import slaved_matrices
@@ -66,6 +67,13 @@ def coefficients(bicycle: Bicycle, rider: Rider | None = None, options: Options 
     (0.4614, 2.3268)
     """
     options = Options.of(options)
+    shape = batch_shape(bicycle, rider, options)
+    if shape is not None:
+        return in_parts(_of_all_at_once, bicycle, rider, options, shape)
+    return _of_all_at_once(bicycle, rider, options)
+
+
+def _of_all_at_once(bicycle: Bicycle, rider: Rider | None, options: Options) -> LinearModel:
     bare = whipple_matrices(bicycle)
     require_double(bare.M)
     if rider is None:

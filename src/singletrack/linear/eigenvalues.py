@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from singletrack.arrays import as_arrays, is_jax, namespace
+from singletrack.arrays import as_arrays, in_stretches, is_jax, namespace
 from singletrack.errors import InputError
 from singletrack.linear.characteristic import characteristic_polynomial
 from singletrack.linear.pencil import pencil
@@ -74,18 +75,25 @@ def eigenvalues(model: LinearModel, speeds: Array) -> Array:
     """
     if is_jax(*model.matrices, model.C0, model.S0, model.gravity, speeds):
         return _jax_eigenvalues(model, _one_axis(speeds))
-    v = checked_speeds(speeds)
-    if model.freedoms > 2:
-        return _by_lapack(model, v)
-    with np.errstate(all="ignore"):  # numbers out of range give NaN
-        if model.is_undamped:
-            polynomials, batch = characteristic_polynomial(model).flat()
-            roots = _roots_at(polynomials, v).reshape(*batch, len(v), 4)
-        else:
-            roots = quartic_roots(*monic_quartic(model.M, *at_speeds(model, v)))
+    v, batch = checked_speeds(speeds), model.shape
+    count, undamped = math.prod(batch), model.is_undamped
+    roots = np.empty((count, len(v), 2 * model.freedoms), dtype=complex)
+
+    def work(piece: slice) -> None:
+        some = model.part(piece)
+        if model.freedoms > 2:
+            roots[piece] = _by_lapack(some, v)
+            return
+        with np.errstate(all="ignore"):  # numbers out of range give NaN
+            if undamped:
+                _roots_at(characteristic_polynomial(some).flat()[0], v, roots[piece])
+            else:
+                roots[piece] = quartic_roots(*monic_quartic(some.M, *at_speeds(some, v)))
+
+    in_stretches(work, count, max(1, (_PROBLEMS if model.freedoms > 2 else CHUNK) // max(len(v), 1)))
     if model.faults:
-        roots = np.where(model.valid[..., None, None], roots, np.nan)
-    return roots
+        roots[~model.valid.ravel()] = np.nan
+    return roots.reshape(*batch, *roots.shape[1:])
 
 
 def _jax_eigenvalues(model: LinearModel, v: Array) -> Array:
@@ -101,17 +109,15 @@ def _jax_eigenvalues(model: LinearModel, v: Array) -> Array:
 
 
 def _by_lapack(model: LinearModel, v: np.ndarray) -> np.ndarray:
-    """Return eigenvalues (..., k, 2 n) at speeds (k,) from the state matrices, chunk by chunk."""
+    """Return eigenvalues (..., k, 2 n) at speeds (k,) from the state matrices."""
     p, batch = pencil(model)
     roots = np.empty((len(p), len(v), 2 * p.freedoms), dtype=complex)
-    step = max(1, _PROBLEMS // max(len(v), 1))
-    for start in range(0, len(p), step):
-        rows = slice(start, start + step)
-        some = p.rows(rows)
-        for first in range(0, len(v), _PROBLEMS):
-            columns = slice(first, first + _PROBLEMS)
-            found = np.linalg.eigvals(some.state(v[columns] / some.speed[:, None]))
-            roots[rows, columns] = np.sort_complex(found) * some.rate[:, None, None]
+
+    def work(piece: slice) -> None:
+        found = np.linalg.eigvals(p.state(v[piece] / p.speed[:, None]))
+        roots[:, piece] = np.sort_complex(found) * p.rate[:, None, None]
+
+    in_stretches(work, len(v), max(1, _PROBLEMS // max(len(p), 1)))
     roots[~p.told] = np.nan
     return roots.reshape(*batch, *roots.shape[1:])
 
@@ -121,18 +127,17 @@ def _one_axis(speeds: Array) -> Array:
     return xp.reshape(v, (-1,))
 
 
-def _roots_at(polynomials: CharacteristicPolynomial, v: np.ndarray) -> np.ndarray:
-    """Return the roots (m, n, 4) of m polynomials at n speeds, in chunks that stay in the cache."""
-    designs, n = len(polynomials.a4), max(len(v), 1)
-    roots = np.empty((designs, len(v), 4), dtype=complex)
-    step = max(1, CHUNK // n)
-    for start in range(0, designs, step):
-        rows = slice(start, start + step)
-        some = polynomials.rows(rows)
-        for first in range(0, len(v), CHUNK):
-            columns = slice(first, first + CHUNK)
-            solve_into(roots[rows, columns].reshape(-1, 4), *(a.ravel() for a in some.monic_at(v[columns])))
-    return roots
+def _roots_at(polynomials: CharacteristicPolynomial, v: np.ndarray, roots: np.ndarray) -> None:
+    """Write the roots (m, k, 4) of m polynomials at speeds (k,)."""
+
+    def work(piece: slice) -> None:
+        quartics = [np.broadcast_to(a, roots[:, piece].shape[:-1]) for a in polynomials.monic_at(v[piece])]
+        if roots[:, piece].flags.c_contiguous:
+            solve_into(roots[:, piece].reshape(-1, 4), *(a.ravel() for a in quartics))
+        else:
+            roots[:, piece] = quartic_roots(*quartics)
+
+    in_stretches(work, len(v), max(1, CHUNK // max(len(roots), 1)))
 
 
 def at_speeds(model: LinearModel, v: Array) -> tuple[Array, Array]:
@@ -197,11 +202,30 @@ def eigenmotions(model: LinearModel, speeds: Array, roots: np.ndarray) -> np.nda
     >>> round(float(np.abs(motion[1])), 2), round(float(np.degrees(np.angle(motion[1]))))
     (1.3, -10)
     """
-    v = checked_speeds(speeds)
+    v, found = checked_speeds(speeds), np.asarray(roots)
+    batch, k, n = np.broadcast_shapes(model.shape, found.shape[:-2]), len(v), model.freedoms
+    flat = np.broadcast_to(found, (*batch, k, 2 * n)).reshape(math.prod(batch), k, 2 * n)
+    whole = model if model.shape == batch else model.broadcast_to(batch)
+    motions = np.empty((*flat.shape, n), dtype=complex)
+
+    def work(piece: slice) -> None:
+        some = whole.part(piece)
+
+        def at(when: slice) -> None:
+            motions[piece, when] = _null_vectors(some, v[when], flat[piece, when])
+
+        in_stretches(at, k, max(1, CHUNK // max(len(flat[piece]), 1)))
+
+    in_stretches(work, len(flat), max(1, CHUNK // max(k, 1)))
+    return motions.reshape(*batch, k, 2 * n, n)
+
+
+def _null_vectors(model: LinearModel, v: np.ndarray, roots: np.ndarray) -> np.ndarray:
+    """Return the eigenmotions (m, k, 2 n, n) of roots (m, k, 2 n)."""
     if model.freedoms > 2:
-        return _null_vectors(model, v, np.asarray(roots))
+        return _null_vectors_by_lapack(model, v, roots)
     damping, stiffness = (np.asarray(part) for part in at_speeds(model, v))
-    s = np.asarray(roots)[..., None, None]
+    s = roots[..., None, None]
     M = np.asarray(model.M)[..., None, None, :, :]
     pencil = M * s**2 + damping[..., None, :, :] * s + stiffness[..., None, :, :]
     size = np.abs(pencil).sum(axis=-1)
@@ -213,7 +237,7 @@ def eigenmotions(model: LinearModel, speeds: Array, roots: np.ndarray) -> np.nda
     return np.stack([np.where(pure_steer, 0.0, 1.0 + 0j), ratio], axis=-1)
 
 
-def _null_vectors(model: LinearModel, v: np.ndarray, roots: np.ndarray) -> np.ndarray:
+def _null_vectors_by_lapack(model: LinearModel, v: np.ndarray, roots: np.ndarray) -> np.ndarray:
     p, batch = pencil(model)
     n = p.freedoms
     flat = np.broadcast_to(roots, (*batch, *roots.shape[-2:])).reshape(len(p), *roots.shape[-2:])

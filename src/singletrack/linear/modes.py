@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from singletrack.arrays import in_stretches
 from singletrack.errors import InputError
 from singletrack.linear.characteristic import characteristic_polynomial
 from singletrack.linear.display import line_of_modes, table_of_modes
@@ -29,6 +30,8 @@ from singletrack.linear.root_order import arrange, label_at_infinity, label_belo
 from singletrack.model import COORDINATES
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     import xarray
 
     from singletrack.arrays import Array
@@ -41,6 +44,8 @@ _NAMES = ("weave", "weave", "capsize", "castering")
 _LABELS = ("weave +", "weave -", "capsize", "castering")
 #: Designs of any number of freedoms followed at a time.
 _CHUNK = 256
+#: Problems in a stretch.
+_PROBLEMS = 8192
 
 
 @dataclass(frozen=True, eq=False)
@@ -156,34 +161,66 @@ def modes(model: LinearModel, speeds: Array) -> Modes:
         raise InputError(f"speeds: found {v.min():g} m/s, must be zero or more (modes are named for riding forward)")
     if model.freedoms > 2 or not model.is_undamped:
         return _of_any_freedoms(model, v)
+    return _followed(model, v, _by_meetings)
+
+
+def _of_any_freedoms(model: LinearModel, v: np.ndarray) -> Modes:
+    return _followed(model, v, _by_branches)
+
+
+def _followed(
+    model: LinearModel, v: np.ndarray, name: Callable[[LinearModel, np.ndarray, np.ndarray], np.ndarray]
+) -> Modes:
+    """Return the modes of designs (...), stretch by stretch, by a function that puts roots into columns."""
+    batch, k, n = model.shape, len(v), model.freedoms
+    valid = np.broadcast_to(model.valid, batch).ravel()
+    named = np.empty((math.prod(batch), k, 2 * n), dtype=complex)
+
+    def work(piece: slice) -> None:
+        some = model.part(piece)
+        roots = eigenvalues(some, v)
+        roots[~valid[piece]] = np.nan
+        named[piece] = name(some, v, roots)
+
+    in_stretches(work, len(named), max(1, _PROBLEMS // max(k, 1)))
+    named = named.reshape(*batch, k, 2 * n)
+    motions = eigenmotions(model, v, named)
+    if n == 2:
+        return Modes(v, named, motions)
+    return Modes(v, named, motions, model.coordinates, _dominant(model, motions))
+
+
+def _dominant(model: LinearModel, motions: np.ndarray) -> np.ndarray:
+    """Return which coordinate takes most part in each motion (..., k, 2 n, n)."""
+    masses = np.sqrt(np.abs(np.diagonal(np.asarray(model.M), axis1=-2, axis2=-1)))
+    share = np.abs(motions)
+    share *= masses[..., None, None, :]
+    result: np.ndarray = np.argmax(np.nan_to_num(share, copy=False), axis=-1)
+    return result
+
+
+def _by_meetings(model: LinearModel, v: np.ndarray, roots: np.ndarray) -> np.ndarray:
+    """Put roots (m, k, 4) of two freedoms without springs and dampers into the columns of their modes."""
     with np.errstate(all="ignore"):  # faulty designs are NaN throughout
-        polynomials, batch = characteristic_polynomial(model).flat()
-    roots = eigenvalues(model, v).reshape(math.prod(batch), len(v), 4)
+        polynomials, _ = characteristic_polynomial(model).flat()
     usable = np.isfinite(roots).all(axis=(1, 2))
     named = np.full_like(roots, np.nan)
     if usable.any() and len(v):
         named[usable] = _follow(polynomials.rows(usable), v, roots[usable])
-    named = named.reshape(*batch, len(v), 4)
-    return Modes(v, named, eigenmotions(model, v, named))
+    return named
 
 
-def _of_any_freedoms(model: LinearModel, v: np.ndarray) -> Modes:
+def _by_branches(model: LinearModel, v: np.ndarray, roots: np.ndarray) -> np.ndarray:
+    """Put roots (m, k, 2 n) of any freedoms into the columns of their modes."""
     p, _ = pencil(model)
-    roots = eigenvalues(model, v)
-    named = roots.reshape(len(p), len(v), 2 * model.freedoms).copy()
-    told = np.flatnonzero(p.told & np.isfinite(named).all(axis=(1, 2)) & bool(len(v)))
+    named = roots.copy()
+    told = np.flatnonzero(p.told & np.isfinite(roots).all(axis=(1, 2)) & bool(len(v)))
     for start in range(0, len(told), _CHUNK):
         rows = told[start : start + _CHUNK]
         some = p.rows(rows)
         rate = some.rate[:, None, None]
         named[rows] = follow(some, v / some.speed[:, None], named[rows] / rate) * rate
-    named = named.reshape(roots.shape)
-    motions = eigenmotions(model, v, named)
-    if model.freedoms == 2:
-        return Modes(v, named, motions)
-    masses = np.sqrt(np.abs(np.diagonal(np.asarray(model.M), axis1=-2, axis2=-1)))
-    dominant = np.argmax(np.nan_to_num(np.abs(motions) * masses[..., None, None, :]), axis=-1)
-    return Modes(v, named, motions, model.coordinates, dominant)
+    return named
 
 
 def _follow(p: CharacteristicPolynomial, v: np.ndarray, roots: np.ndarray) -> np.ndarray:

@@ -5,13 +5,14 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from math import inf
+from math import inf, prod
 from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 import numpy as np
 
 from singletrack.arrays import Array, is_concrete
 from singletrack.arrays.faults import Fault, refuse_single
+from singletrack.arrays.stretches import part_of
 from singletrack.errors import InputError, SingletrackError
 from singletrack.parameters.description import ALLOWED, Parameter, faults_of_value, parameter
 from singletrack.parameters.display import line_of, table_of
@@ -136,6 +137,37 @@ class Record:
     def _physical_faults(self) -> Iterator[Fault]:
         """Yield faults that concern several parameters; only called on values that are numbers."""
         yield from ()
+
+    def part(self, which: slice | np.ndarray, shape: tuple[int, ...]) -> Self:
+        """Return some designs of a batch as a record of its own, on one axis, without their faults.
+
+        Nothing is checked again; what does not vary stays a number.
+
+        Parameters
+        ----------
+        which : slice or array of int
+            Designs, as numbered along one axis.
+        shape : tuple of int
+            Of a batch to which the parameters broadcast.
+
+        Examples
+        --------
+        >>> from singletrack import load_bicycle
+        >>> bicycle = load_bicycle("benchmark").replace(trail=[0.05, 0.06, 0.07])
+        >>> bicycle.part(slice(1, 3), (3,)).trail.tolist()
+        [0.06, 0.07]
+        """
+        other = object.__new__(type(self))
+        own = dict(self.__dict__)
+        for name, value in own.items():
+            if isinstance(value, np.ndarray):
+                own[name] = part_of(value, which, shape)
+            elif isinstance(value, FrozenDict):
+                own[name] = FrozenDict({key: part_of(one, which, shape) for key, one in value.items()})
+        length = range(prod(shape))[which] if isinstance(which, slice) else which
+        own["_standing"], own["_shape"] = (), (len(length),) if self.shape else ()
+        other.__dict__.update(own)
+        return other
 
     @property
     def is_single(self) -> bool:
