@@ -12,7 +12,7 @@ from singletrack import catalogue, load_rider
 
 MEASURED = ("stratos", "browser", "rigid")
 OTHERS = ("kooijman-2008", "crescendo", "fisher", "pista", "yellow")
-DOCS = Path(__file__).parents[2] / "docs" / "catalogue.md"
+DOCS = Path(__file__).parents[2] / "docs" / "howto" / "catalogue.md"
 
 
 def test_two_stated_deviations_hold_19_of_20_parameters(case):
@@ -35,7 +35,7 @@ def test_weave_speed_of_the_riderless_experiment(case):
 
 
 def test_other_measured_bicycles(case):
-    """Looked at only after the table of components was done; docs/catalogue.md tells which fall outside, and why."""
+    """Looked at only after the table of components was done; docs/howto/catalogue.md tells which fall outside."""
     scores = {(name, parameter): score for name in OTHERS for parameter, score in case(name).scores().items()}
     # Moments about a diameter that no thin wheel has: half the one about the axle, and what a width of 25 mm adds.
     impossible = {

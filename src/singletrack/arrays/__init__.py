@@ -1,7 +1,16 @@
 """Arrays on NumPy or JAX, vectors, and what is wrong with some designs of a batch."""
 
 from singletrack.arrays.faults import Fault, refuse_single, valid_mask
-from singletrack.arrays.namespace import Array, as_arrays, is_concrete, is_jax, namespace, require_double
+from singletrack.arrays.namespace import (
+    Array,
+    Numbers,
+    Scalar,
+    as_arrays,
+    is_concrete,
+    is_jax,
+    namespace,
+    require_double,
+)
 from singletrack.arrays.steps import complex_allowed, complex_steps
 from singletrack.arrays.stretches import in_stretches, part_of, single_thread, stretches, threads
 from singletrack.arrays.vectors import cross, dot, matvec, skew, stack, unit_vector, vector
@@ -9,6 +18,8 @@ from singletrack.arrays.vectors import cross, dot, matvec, skew, stack, unit_vec
 __all__ = [
     "Array",
     "Fault",
+    "Numbers",
+    "Scalar",
     "as_arrays",
     "complex_allowed",
     "complex_steps",

@@ -74,7 +74,7 @@ def frame_oddities(bicycle: Bicycle) -> tuple[Oddity, ...]:
     tilt = float(bicycle.steer_axis_tilt)
     drop = bicycle.rear_wheel_radius - bicycle.bottom_bracket_height
     offset = bicycle.front_wheel_radius * sin(tilt) - bicycle.trail * cos(tilt)
-    if bicycle.chain_stay_length >= abs(drop) and bicycle.fork_length >= abs(offset):
+    if bicycle.chain_stay_length >= abs(float(drop)) and bicycle.fork_length >= abs(float(offset)):
         return ()
     faults = [fault for fault in frame_faults(frame_points(bicycle), bicycle) if fault.bad]
     return tuple(

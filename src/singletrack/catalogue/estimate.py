@@ -140,9 +140,9 @@ def _inertial(
     points: Mapping[str, np.ndarray],
     masses: np.ndarray,
     random: np.random.Generator,
-) -> dict[str, np.ndarray]:
+) -> dict[str, Any]:
     """Return masses, centres and inertias, each (n,)."""
-    found: dict[str, np.ndarray] = {}
+    found: dict[str, Any] = {}
     sample = {name: point[1:] for name, point in points.items()}
     for assembly in ASSEMBLIES:
         own = collection.members(assembly)
@@ -181,7 +181,7 @@ def _summary(
         f"{collection.assemblies[i]}: {name}": (float(masses[:, i].mean()), float(masses[:, i].std()))
         for i, name in enumerate(collection.prior.names)
     }
-    source = "estimated from its geometry and from what components weigh (singletrack new); docs/catalogue.md"
+    source = "estimated from its geometry and from what components weigh (singletrack new); docs/howto/catalogue.md"
     values = {name: _rounded(value, deviations.get(name)) for name, value in values.items()}
     deviations = {name: float(f"{deviation:.2e}") for name, deviation in deviations.items()}
     texts: dict[str, Any] = {"name": sheet.name, "source": source, "standard_deviations": deviations}

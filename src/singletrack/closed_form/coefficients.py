@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -148,7 +148,7 @@ def _bordered(matrix: Array) -> Array:
     return xp.concat([xp.zeros((*batch, 1, f + 1), dtype=matrix.dtype), wide], axis=-2)
 
 
-def _steer_laws(options: Options, freedoms: int) -> tuple[Array | None, Array | None]:
+def _steer_laws(options: Options, freedoms: int) -> tuple[Any, Any]:
     """Return C0 and S0 of damper and spring on the steer, None without."""
     found: list[Array | None] = []
     for values in (options.dampers, options.springs):
@@ -162,7 +162,7 @@ def _steer_laws(options: Options, freedoms: int) -> tuple[Array | None, Array | 
     return found[0], found[1]
 
 
-def _both(one: Array | None, other: Array | None) -> Array | None:
+def _both(one: Array | None, other: Array | None) -> Any:
     if one is None or other is None:
         return other if one is None else one
     return one + other

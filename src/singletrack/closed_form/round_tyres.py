@@ -1,4 +1,4 @@
-"""Tyres with a round cross-section: what leaning on them adds to the linear model (derived in docs/theory.md).
+"""Tyres with a round cross-section: what leaning on them adds to the linear model (docs/theory/closed-form.md).
 
 A wheel of outer radius r and crown radius c (of the tyre's cross-section) that leans by a stands with its hub at the
 height ``(r - c) cos a + c``: higher than a knife edge by ``c a^2 / 2``. To second order that lifts the load N on the
@@ -16,7 +16,7 @@ from __future__ import annotations
 import dataclasses
 from typing import TYPE_CHECKING
 
-from singletrack.arrays import Array, as_arrays, stack
+from singletrack.arrays import Scalar, as_arrays, stack
 from singletrack.parameters.bodies import bicycle_bodies
 from singletrack.parameters.flexible import soft_hinges
 
@@ -64,7 +64,7 @@ def on_round_tyres(model: LinearModel, bicycle: Bicycle, posture: Posture | None
     return dataclasses.replace(model, K0=K0)
 
 
-def _loads(bicycle: Bicycle, posture: Posture | None) -> tuple[Array, Array]:
+def _loads(bicycle: Bicycle, posture: Posture | None) -> tuple[Scalar, Scalar]:
     """Return the masses that rest on the front and on the rear wheel, kg, (...)."""
     own = bicycle_bodies(bicycle).values()
     mass = sum(body.mass for body in own)

@@ -16,7 +16,19 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
     from types import FrameType
 
-__all__ = ["main"]
+__all__ = ["EXIT_CODES", "main"]
+
+#: What the program says to the one that called it.
+EXIT_CODES = {
+    0: "Done.",
+    1: "An error of the program itself, or not enough memory: nothing that other input would mend. "
+    "SINGLETRACK_TRACEBACK=1 shows where.",
+    2: "Something that you can mend: one sentence on standard error names the file, the parameter, what was found and "
+    "what is allowed. Nothing half-written is left.",
+    128 + signal.SIGINT: "Interrupted (Ctrl-C); a sweep says how to go on.",
+    141: "Nobody reads the output any more (a pipe that was closed).",
+    128 + signal.SIGTERM: "Terminated; as after Ctrl-C.",
+}
 
 
 class _Terminated(BaseException):

@@ -22,7 +22,7 @@ from singletrack.version import __version__
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-__all__ = ["COMMANDS", "run"]
+__all__ = ["COMMANDS", "command", "run"]
 
 #: Each command and what it does; its module has its name, with "_" for "-".
 COMMANDS = {
@@ -64,11 +64,18 @@ class _Door(TyperGroup):
         self.commands.update({name: TyperCommand(name, help=text) for name, text in COMMANDS.items()})
 
     def resolve_command(self, ctx: Any, args: list[str]) -> tuple[str | None, Any, list[str]]:
-        name, command, rest = super().resolve_command(ctx, args)
-        return name, command and _command(str(name)), rest
+        name, found, rest = super().resolve_command(ctx, args)
+        return name, found and command(str(name)), rest
 
 
-def _command(name: str) -> Any:
+def command(name: str) -> Any:
+    """Return a command with its arguments and options; its module is imported.
+
+    Parameters
+    ----------
+    name : str
+        One of :data:`COMMANDS`.
+    """
     module = importlib.import_module(f"singletrack.commands.{name.replace('-', '_')}")
     alone = typer.Typer(add_completion=False)
     alone.command(name, help=COMMANDS[name], context_settings=_SETTINGS)(_flat(module.run))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 from importlib import resources
 from pathlib import Path
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from singletrack.errors import InputError, SingletrackError, shown, unknown_name
 from singletrack.files.registry import read_any, read_bicycle, read_rider
@@ -17,7 +17,6 @@ from singletrack.parameters.units import parse_quantity
 if TYPE_CHECKING:
     from importlib.resources.abc import Traversable
 
-    from singletrack.arrays import Array
     from singletrack.parameters.bicycle import Bicycle
     from singletrack.parameters.rider import Rider
 
@@ -138,7 +137,7 @@ def override(record: R, texts: dict[str, str], where: str = "--set") -> R:
     """
     descriptions = record.descriptions()
     record.require_known(dict.fromkeys(name for name in texts if name not in descriptions))
-    changes: dict[str, Array] = {}
+    changes: dict[str, Any] = {}
     deviations = dict(record.standard_deviations)
     for name, text in texts.items():
         try:

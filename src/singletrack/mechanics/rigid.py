@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence  # noqa: TC003  # part of the public signature
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from singletrack.arrays import Array, dot, namespace, stack, vector
+from singletrack.arrays import Array, Scalar, dot, namespace, stack, vector
 
 __all__ = ["Body", "PlanarBody", "combine", "point_inertia", "principal_in_plane"]
 
@@ -27,7 +27,7 @@ class Body:
         Inertia tensor about the centre of mass, along the axes of the frame, in kg m^2.
     """
 
-    mass: Array
+    mass: Scalar
     centre: Array
     inertia: Array
 
@@ -42,7 +42,7 @@ class Body:
         return self.inertia + point_inertia(self.mass, self.centre - point)
 
 
-def point_inertia(mass: Array, arm: Array) -> Array:
+def point_inertia(mass: Scalar, arm: Array) -> Array:
     """Return the inertia tensor (..., 3, 3) of a point mass (...) at an arm (..., 3), in kg m^2."""
     xp = namespace(mass, arm)
     mass = xp.asarray(mass)[..., None, None]
@@ -60,9 +60,10 @@ def combine(bodies: Sequence[Body]) -> Body:
     (2.0, [0.0, 0.0, 0.0], [2.0, 0.0, 2.0])
     """
     xp = namespace(*(body.centre for body in bodies))
-    mass = sum(xp.asarray(body.mass) for body in bodies)
+    mass: Any = sum(xp.asarray(body.mass) for body in bodies)
     centre = sum(xp.asarray(body.mass)[..., None] * body.centre for body in bodies) / mass[..., None]
-    return Body(mass, centre, sum(body.inertia_about(centre) for body in bodies))
+    inertia: Any = sum(body.inertia_about(centre) for body in bodies)
+    return Body(mass, centre, inertia)
 
 
 class PlanarBody(NamedTuple):
@@ -78,13 +79,13 @@ class PlanarBody(NamedTuple):
         Entries of the inertia tensor about the centre of mass in kg m^2.
     """
 
-    mass: Array
-    x: Array
-    z: Array
-    xx: Array
-    yy: Array
-    zz: Array
-    xz: Array
+    mass: Scalar
+    x: Scalar
+    z: Scalar
+    xx: Scalar
+    yy: Scalar
+    zz: Scalar
+    xz: Scalar
 
     def body(self) -> Body:
         """Return the same body with its centre (..., 3) and its tensor (..., 3, 3).
@@ -103,7 +104,7 @@ class PlanarBody(NamedTuple):
         return cls(body.mass, centre[..., 0], centre[..., 2], *moments)
 
 
-def principal_in_plane(xx: Array, zz: Array, xz: Array) -> tuple[Array, Array, Array]:
+def principal_in_plane(xx: Scalar, zz: Scalar, xz: Scalar) -> tuple[Array, Array, Array]:
     """Return the principal moments in the x-z plane and the direction of the larger one's axis.
 
     Parameters

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Self
 
 import numpy as np
 
-from singletrack.arrays import Array, is_concrete
+from singletrack.arrays import Scalar, is_concrete
 from singletrack.arrays.faults import Fault, refuse_single
 from singletrack.arrays.stretches import part_of
 from singletrack.errors import InputError, SingletrackError
@@ -51,7 +51,7 @@ class Record:
     name: str = ""
     description: str = ""
     source: str = ""
-    standard_deviations: Mapping[str, Array] = field(default_factory=dict)
+    standard_deviations: Mapping[str, Scalar] = field(default_factory=dict)
     extras: Mapping[str, float] = field(default_factory=dict)
 
     def __new__(cls, *unnamed: Any, **named: Any) -> Self:
@@ -85,7 +85,7 @@ class Record:
         """Return the description of every parameter by name, in the order of the record."""
         return dict(_descriptions(cls))
 
-    def values(self) -> dict[str, Array]:
+    def values(self) -> dict[str, Scalar]:
         """Return the parameters that are present, by name.
 
         Each of a shape (...) of its own that broadcasts with the others, SI.
@@ -95,7 +95,7 @@ class Record:
         found = {name: getattr(self, name) for name in _descriptions(type(self))}
         return {name: value for name, value in found.items() if value is not None}
 
-    def replace(self, **changes: Array) -> Self:
+    def replace(self, **changes: Any) -> Self:
         """Return a copy with parameters changed; values may be arrays, which broadcast as NumPy does.
 
         Raises
@@ -223,14 +223,14 @@ def _check_mappings(record: Record) -> None:
     own["extras"] = FrozenDict({name: _number_of(f"extras[{name!r}]", value) for name, value in record.extras.items()})
 
 
-def _number_of(name: str, value: Any) -> Array:
+def _number_of(name: str, value: Any) -> Scalar:
     try:
         return as_parameter(value)
     except InputError as error:
         raise error.of(name) from None
 
 
-def _is_spread(value: Array) -> bool:
+def _is_spread(value: Scalar) -> bool:
     """Tell whether a standard deviation is finite and not negative, as far as it can be looked at."""
     if isinstance(value, float):
         return 0 <= value < inf

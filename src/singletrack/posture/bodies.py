@@ -2,7 +2,7 @@
 
 A joint's momentum (p, h) is that of all it carries for its unit rate, about the rear contact: p = M v + w x S and
 h = I w + S x v, with the mass M, first moment S and inertia I of the segments beyond it. Everything the equations need
-follows from it (docs/theory.md, with X as in :mod:`singletrack.posture.twists` and Y the same sum of v):
+follows from it (docs/theory/closed-form.md, with X as in :mod:`singletrack.posture.twists` and Y the same sum of v):
 
     momenta along a freedom      sum of  p U_i,  h U_i
     inertia of two freedoms      sum of  (X_i . h + Y_i . p) U_j + (X_j . h + Y_j . p) U_i
@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from singletrack.arrays import Array, as_arrays, is_concrete, stack
+from singletrack.arrays import Array, Scalar, as_arrays, is_concrete, stack
 from singletrack.arrays.faults import Fault, refuse_single
 from singletrack.errors import PostureError
 from singletrack.posture.laws import laws_of
@@ -63,16 +63,16 @@ class SlavedMass:
         Designs of a batch that cannot sit or steer.
     """
 
-    moment_x: Array
-    moment_z: Array
-    inertia_xx: Array
-    inertia_xz: Array
-    inertia_zz: Array
-    spin_x: Sequence[Array] = (0.0,)
-    spin_z: Sequence[Array] = (0.0,)
-    lateral: Sequence[Array] = (0.0,)
-    inner: Sequence[Array] = (0.0,)
-    sinking: Sequence[Array] = (0.0,)
+    moment_x: Scalar
+    moment_z: Scalar
+    inertia_xx: Scalar
+    inertia_xz: Scalar
+    inertia_zz: Scalar
+    spin_x: Sequence[Scalar] = (0.0,)
+    spin_z: Sequence[Scalar] = (0.0,)
+    lateral: Sequence[Scalar] = (0.0,)
+    inner: Sequence[Scalar] = (0.0,)
+    sinking: Sequence[Scalar] = (0.0,)
     freedoms: tuple[str, ...] = ()
     damping: Array | None = None
     stiffness: Array | None = None

@@ -66,7 +66,7 @@ def _blocks(loops: Loops, own: np.ndarray) -> tuple[Callable[[Array], Array], np
     None where JAX does not let that be looked at.
     """
     count = len(own)
-    mine = loops.columns[:, np.arange(count)[:, None], own]  # type: ignore[index]
+    mine = loops.columns[:, np.arange(count)[:, None], own]
     one, two, three = (mine[:, :, k] for k in range(3))
     rows = [cross3(two, three), cross3(three, one), cross3(one, two)]
     volume = dot3(one, rows[0])

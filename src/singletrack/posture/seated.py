@@ -8,9 +8,20 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property
 from math import pi
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
-from singletrack.arrays import Array, Fault, as_arrays, cross, dot, is_concrete, refuse_single, unit_vector, vector
+from singletrack.arrays import (
+    Array,
+    Fault,
+    Scalar,
+    as_arrays,
+    cross,
+    dot,
+    is_concrete,
+    refuse_single,
+    unit_vector,
+    vector,
+)
 from singletrack.body import Segment, Skeleton, rider_segments, skeleton
 from singletrack.body.fit import fitted
 from singletrack.errors import PostureError
@@ -54,9 +65,9 @@ class Joint:
     axis: Array
     slides: bool = False
     free: bool = False
-    stiffness: Array = 0.0
-    damping: Array = 0.0
-    preload: Array = 0.0
+    stiffness: Scalar = 0.0
+    damping: Scalar = 0.0
+    preload: Scalar = 0.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -78,7 +89,7 @@ class Loop:
 
     name: str
     joint: str
-    point: Array
+    point: Any  # an array, or None
     to: str = HANDLEBAR
     directions: tuple[Array, Array] | None = None
 

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
     from matplotlib.figure import Figure
 
-    from singletrack.arrays import Array
+    from singletrack.arrays import Array, Numbers, Scalar
     from singletrack.parameters import Bicycle, Rider
     from singletrack.posture import Mechanism
 
@@ -50,7 +50,7 @@ class CoefficientMatrices(LinearModel):
         """Return the matrices as a table, for notebooks."""
         return table_of_model(self)
 
-    def eigenvalues(self, speeds: Array) -> Array:
+    def eigenvalues(self, speeds: Numbers) -> Array:
         """Return the eigenvalues at forward speeds, sorted by real then imaginary part.
 
         Parameters
@@ -65,7 +65,7 @@ class CoefficientMatrices(LinearModel):
         """
         return eigenvalues(self, speeds)
 
-    def modes(self, speeds: Array) -> Modes:
+    def modes(self, speeds: Numbers) -> Modes:
         """Return the eigenvalues as named modes, followed through the speeds (see :class:`Modes`)."""
         return modes(self, speeds)
 
@@ -75,7 +75,7 @@ class CoefficientMatrices(LinearModel):
 
     def plot(
         self,
-        speeds: Array = (0.0, 10.0),
+        speeds: Numbers = (0.0, 10.0),
         *,
         width: float = 84.0,
         title: str = "",
@@ -128,7 +128,7 @@ class CoefficientMatrices(LinearModel):
         """
         return latex_table(self, self.critical_speeds(), caption, digits)
 
-    def state_space(self, speed: Array) -> StateSpace:
+    def state_space(self, speed: Numbers) -> StateSpace:
         """Return the equations at one or several forward speeds in m/s as first-order systems (:class:`StateSpace`)."""
         return state_space(self, speed)
 
@@ -141,9 +141,9 @@ def coefficients(
     *,
     arms: str | None = None,
     torso_lean: bool = False,
-    springs: Mapping[str, Array] | None = None,
-    dampers: Mapping[str, Array] | None = None,
-    fit: Array | None = None,
+    springs: Mapping[str, Scalar] | None = None,
+    dampers: Mapping[str, Scalar] | None = None,
+    fit: Scalar | None = None,
 ) -> CoefficientMatrices:
     """Return the linearised equations of motion of a bicycle, alone or with a rider.
 

@@ -15,7 +15,7 @@ from singletrack.present.words import KILOMETRES, METRES
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from singletrack.arrays import Array
+    from singletrack.arrays import Numbers
     from singletrack.model import LinearModel
 
 __all__ = ["figure_of_model"]
@@ -23,7 +23,9 @@ __all__ = ["figure_of_model"]
 _FINE, _MOST = 401, 50
 
 
-def figure_of_model(model: LinearModel, speeds: Array, *, width: float, title: str, kmh: bool, limit: float) -> Figure:
+def figure_of_model(
+    model: LinearModel, speeds: Numbers, *, width: float, title: str, kmh: bool, limit: float
+) -> Figure:
     """Return a figure of eigenvalues over the speed (arguments and errors as :meth:`CoefficientMatrices.plot`).
 
     Parameters
