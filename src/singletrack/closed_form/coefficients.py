@@ -10,7 +10,8 @@ import numpy as np
 from singletrack.arrays import Array, as_arrays, is_concrete, refuse_single, require_double
 from singletrack.closed_form.batches import batch_shape, in_parts
 from singletrack.closed_form.flexible import flexible_matrices, hinge_laws
-from singletrack.closed_form.round_tyres import on_round_tyres
+from singletrack.closed_form.round_tyres import load_of_rider, on_round_tyres
+from singletrack.closed_form.single import single_design
 from singletrack.closed_form.slaved import slaved_matrices
 from singletrack.closed_form.whipple import whipple_matrices
 from singletrack.model import COORDINATES, INPUTS, LinearModel
@@ -22,10 +23,9 @@ if TYPE_CHECKING:
     from singletrack.parameters import Bicycle, Rider
     from singletrack.posture import Posture
 
-__all__ = ["coefficients"]
+__all__ = ["by_arrays", "coefficients"]
 
 
-@np.errstate(all="ignore")  # sound designs overflow nowhere; faulty ones of a batch are flagged, and NaN
 def coefficients(bicycle: Bicycle, rider: Rider | None = None, options: Options | str = "rigid") -> LinearModel:
     """Return the coefficient matrices of the linearised equations of motion.
 
@@ -67,13 +67,19 @@ def coefficients(bicycle: Bicycle, rider: Rider | None = None, options: Options 
     (0.4614, 2.3268)
     """
     options = Options.of(options)
+    single = single_design(bicycle, rider, options)
+    if single is not None:
+        return single.model
     shape = batch_shape(bicycle, rider, options)
-    if shape is not None:
-        return in_parts(_of_all_at_once, bicycle, rider, options, shape)
-    return _of_all_at_once(bicycle, rider, options)
+    return by_arrays(bicycle, rider, options) if shape is None else in_parts(by_arrays, bicycle, rider, options, shape)
 
 
-def _of_all_at_once(bicycle: Bicycle, rider: Rider | None, options: Options) -> LinearModel:
+@np.errstate(all="ignore")  # sound designs overflow nowhere; faulty ones of a batch are flagged, and NaN
+def by_arrays(bicycle: Bicycle, rider: Rider | None, options: Options) -> LinearModel:
+    """Return the coefficient matrices by the equations for arrays: of any batch, on NumPy or JAX, with all faults.
+
+    Parameters and errors as for :func:`coefficients`; each matrix of shape (..., n, n).
+    """
     bare = whipple_matrices(bicycle)
     require_double(bare.M)
     if rider is None:
@@ -104,7 +110,7 @@ def _of_all_at_once(bicycle: Bicycle, rider: Rider | None, options: Options) -> 
         coordinates=(*COORDINATES, *bodies.freedoms),
         inputs=(*INPUTS, *map(input_name, bodies.freedoms)),
     )
-    return _checked(on_round_tyres(_softened(model, bicycle, posture), bicycle, posture), bicycle.name)
+    return _checked(on_round_tyres(_softened(model, bicycle, posture), bicycle, load_of_rider(posture)), bicycle.name)
 
 
 def _softened(model: LinearModel, bicycle: Bicycle, posture: Posture | None) -> LinearModel:

@@ -25,10 +25,10 @@ if TYPE_CHECKING:
     from singletrack.parameters import Bicycle
     from singletrack.posture import Posture
 
-__all__ = ["on_round_tyres"]
+__all__ = ["load_of_rider", "on_round_tyres"]
 
 
-def on_round_tyres(model: LinearModel, bicycle: Bicycle, posture: Posture | None) -> LinearModel:
+def on_round_tyres(model: LinearModel, bicycle: Bicycle, rider_load: tuple[Scalar, Scalar] | None) -> LinearModel:
     """Return the model of a bicycle on its round tyres, where it has a tyre radius.
 
     Parameters
@@ -36,8 +36,8 @@ def on_round_tyres(model: LinearModel, bicycle: Bicycle, posture: Posture | None
     model : LinearModel
         On knife edges.
     bicycle : Bicycle
-    posture : Posture, optional
-        The seated rider, who loads the wheels too.
+    rider_load : (array, array), shape (...) each, optional
+        Of the seated rider, who loads the wheels too (:func:`load_of_rider`).
 
     Examples
     --------
@@ -50,7 +50,7 @@ def on_round_tyres(model: LinearModel, bicycle: Bicycle, posture: Posture | None
     if bicycle.rear_tyre_radius is None and bicycle.front_tyre_radius is None:
         return model
     xp, (tilt, base) = as_arrays(bicycle.steer_axis_tilt, bicycle.wheel_base)
-    front, rear = _loads(bicycle, posture)
+    front, rear = _loads(bicycle, rider_load)
     zero = 0.0 * tilt * base
     leans = {"lean": zero + 1.0, "steer": zero + xp.sin(tilt)}
     leans |= {hinge.name: zero + hinge.axis[..., 0] for hinge in soft_hinges(bicycle)}
@@ -64,14 +64,27 @@ def on_round_tyres(model: LinearModel, bicycle: Bicycle, posture: Posture | None
     return dataclasses.replace(model, K0=K0)
 
 
+<<<<<<< HEAD
+def load_of_rider(posture: Posture) -> tuple[Scalar, Scalar]:
+    """Return a seated rider's mass in kg and its first moment about the rear contact along x in kg m, (...) each.
+
+    Parameters
+    ----------
+    posture : Posture
+    """
+    segments = posture.segments.values()
+    return sum(part.mass for part in segments), sum(part.mass * part.centre[..., 0] for part in segments)
+
+
+def _loads(bicycle: Bicycle, rider_load: tuple[Scalar, Scalar] | None) -> tuple[Scalar, Scalar]:
+=======
 def _loads(bicycle: Bicycle, posture: Posture | None) -> tuple[Scalar, Scalar]:
+>>>>>>> main
     """Return the masses that rest on the front and on the rear wheel, kg, (...)."""
     own = bicycle_bodies(bicycle).values()
     mass = sum(body.mass for body in own)
     moment = sum(body.mass * body.x for body in own)
-    if posture is not None:
-        segments = posture.segments.values()
-        mass = mass + sum(segment.mass for segment in segments)
-        moment = moment + sum(segment.mass * segment.centre[..., 0] for segment in segments)
+    if rider_load is not None:
+        mass, moment = mass + rider_load[0], moment + rider_load[1]
     front = moment / bicycle.wheel_base
     return front, mass - front

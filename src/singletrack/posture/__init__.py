@@ -2,12 +2,20 @@
 
 from singletrack.posture.arguments import require_bicycle, require_posture, require_records
 from singletrack.posture.bodies import SlavedMass, slaved_mass
+from singletrack.posture.margins import Margins, margins
 from singletrack.posture.mechanism import HANDLEBAR, Mechanism
 from singletrack.posture.options import ARMS, POSTURES, SHOULDERS, STEER, Options, input_name
 from singletrack.posture.residual import loop_residual
 from singletrack.posture.seated import Joint, Loop, Posture, seat, steer_axis
 from singletrack.posture.segment_motion import SlavedBodies, slaved_bodies
-from singletrack.posture.shipped import TORSO_LEAN, is_posture, load_posture, mechanism_of, named_posture
+from singletrack.posture.shipped import (
+    TORSO_LEAN,
+    file_of_posture,
+    is_posture,
+    load_posture,
+    mechanism_of,
+    named_posture,
+)
 from singletrack.posture.steered import moved_skeleton, steered_skeleton
 
 __all__ = [
@@ -19,15 +27,18 @@ __all__ = [
     "TORSO_LEAN",
     "Joint",
     "Loop",
+    "Margins",
     "Mechanism",
     "Options",
     "Posture",
     "SlavedBodies",
     "SlavedMass",
+    "file_of_posture",
     "input_name",
     "is_posture",
     "load_posture",
     "loop_residual",
+    "margins",
     "mechanism_of",
     "moved_skeleton",
     "named_posture",
