@@ -64,7 +64,6 @@ def on_round_tyres(model: LinearModel, bicycle: Bicycle, rider_load: tuple[Scala
     return dataclasses.replace(model, K0=K0)
 
 
-<<<<<<< HEAD
 def load_of_rider(posture: Posture) -> tuple[Scalar, Scalar]:
     """Return a seated rider's mass in kg and its first moment about the rear contact along x in kg m, (...) each.
 
@@ -77,9 +76,6 @@ def load_of_rider(posture: Posture) -> tuple[Scalar, Scalar]:
 
 
 def _loads(bicycle: Bicycle, rider_load: tuple[Scalar, Scalar] | None) -> tuple[Scalar, Scalar]:
-=======
-def _loads(bicycle: Bicycle, posture: Posture | None) -> tuple[Scalar, Scalar]:
->>>>>>> main
     """Return the masses that rest on the front and on the rear wheel, kg, (...)."""
     own = bicycle_bodies(bicycle).values()
     mass = sum(body.mass for body in own)
