@@ -101,6 +101,11 @@ mutants: setup-dev $(TOOLS)/ready
 clean:
 	rm -rf $(VENV) $(TOOLS) build dist singletrack-output .mypy_cache .ruff_cache .import_linter_cache docs/_build docs/auto_gallery docs/*/generated
 
+# Programs of single designs, traced from the closed form and shipped (data/programs).
+.PHONY: programs
+programs: setup-dev
+	$(BIN)/python -m singletrack.closed_form.generate
+
 # The page in the browser: programs traced from the equations, sources checked and built (needs npm), result shipped.
 .PHONY: page page-check page-programs page-speed
 # Types of the page's sources.

@@ -19,7 +19,7 @@ from singletrack.model import COORDINATES, INPUTS, LinearModel
 from singletrack.posture import STEER, TORSO_LEAN, Margins, Options, input_name
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
+    from collections.abc import Callable, Mapping, Sequence
 
     from singletrack.arrays import Array
     from singletrack.closed_form.programs import Program
@@ -32,6 +32,8 @@ __all__ = ["Single", "single_design"]
 _REACH = 1e-9
 _RESIDUAL, _CONDITION, _INERTIA = 1e-12, 1e8, 1e-9
 _DEFINITE = 1e-6
+#: Coordinates and inputs by their number.
+_NAMES = {2: (COORDINATES, INPUTS), 3: ((*COORDINATES, TORSO_LEAN), (*INPUTS, input_name(TORSO_LEAN)))}
 _WRONG = (ValueError, ZeroDivisionError, OverflowError)
 
 
@@ -78,14 +80,18 @@ def single_design(bicycle: Bicycle, rider: Rider | None, options: Options) -> Si
     except _WRONG:
         return None
     n = program.freedoms
-    size = len(MATRICES) * n * n
-    seated = None if rider is None else Margins(*found[size + 2 :])
-    if not isfinite(sum(found)) or not _definite(found, n) or not (seated is None or _sits(seated, rider)):
+    if not isfinite(sum(found)) or not _definite(found, n):
         return None
-    M, C1, K0, K2 = np.array(found[:size]).reshape(-1, n, n)
-    more = {"coordinates": (*COORDINATES, TORSO_LEAN), "inputs": (*INPUTS, input_name(TORSO_LEAN))} if n > 2 else {}
-    model = LinearModel(M, C1, K0, K2, bicycle.gravity, **laws, **more)
-    return Single(on_round_tyres(model, bicycle, None if rider is None else found[size : size + 2]), seated)
+    seated, load = None, None
+    if rider is not None:
+        size = len(MATRICES) * n * n
+        load, seated = (found[size], found[size + 1]), Margins(*found[size + 2 :])
+        if not _sits(found[size + 2 :], rider):
+            return None
+    M, C1, K0, K2 = np.array(found[: len(MATRICES) * n * n]).reshape(-1, n, n)
+    names, (C0, S0) = _NAMES[n], laws
+    model = LinearModel(M, C1, K0, K2, bicycle.gravity, C0=C0, S0=S0, coordinates=names[0], inputs=names[1])
+    return Single(on_round_tyres(model, bicycle, load), seated)
 
 
 def _needs_no_rider(options: Options) -> bool:
@@ -118,28 +124,27 @@ def _values(program: Program, bicycle: Bicycle, rider: Rider | None) -> tuple[fl
     return None if None in found else found
 
 
-def _laws(options: Options, freedoms: int) -> dict[str, Array] | None:
-    """Return C0 and S0 where there are springs and dampers, on the steer or the torso's lean; None for others."""
-    found = {}
-    for matrix, amounts in (("C0", options.dampers), ("S0", options.springs)):
-        if not amounts:
-            continue
-        found[matrix] = np.zeros((freedoms, freedoms))
+def _laws(options: Options, freedoms: int) -> tuple[Array, Array] | None:
+    """Return C0 and S0 of springs and dampers on the steer and the torso's lean; None where there are others."""
+    found = np.zeros((2, freedoms, freedoms))
+    for matrix, amounts in zip(found, (options.dampers, options.springs), strict=True):
         for name, amount in amounts.items():
             place = 1 if name == STEER else 2
             if name not in (STEER, TORSO_LEAN) or place >= freedoms or type(amount) is not float:
                 return None
-            found[matrix][place, place] = amount
-    return found
+            matrix[place, place] = amount
+    return found[0], found[1]
 
 
-def _sits(margins: Margins, rider: Rider) -> bool:
-    """Tell whether limbs reach and fold and the arms follow the steer, with room to spare."""
-    if not (margins.residual < _RESIDUAL and margins.condition < _CONDITION and margins.inertia > _INERTIA):
+def _sits(margins: Sequence[float], rider: Rider) -> bool:
+    """Tell whether limbs reach and fold and the arms follow the steer, with room to spare; margins as they stand."""
+    arm, leg, residual, condition, inertia = margins
+    own = rider.__dict__
+    if not (residual < _RESIDUAL and condition < _CONDITION and inertia > _INERTIA):
         return False
     for share, upper, lower in (
-        (margins.arm, rider.upper_arm_length, rider.lower_arm_length),
-        (margins.leg, rider.upper_leg_length, rider.lower_leg_length),
+        (arm, own["upper_arm_length"], own["lower_arm_length"]),
+        (leg, own["upper_leg_length"], own["lower_leg_length"]),
     ):
         if not (share < 1 - _REACH and share * (upper + lower) > abs(upper - lower) + _REACH):
             return False

@@ -92,7 +92,9 @@ def _adjugates(loops: Loops, own: np.ndarray) -> tuple[list[Array], list[Array],
 
 def _sizes(columns: list[Array], rows: list[Array]) -> Array:
     """Return |A|² |adj A|² (L, N), Frobenius."""
-    return sum(dot3(column, column) for column in columns) * sum(dot3(row, row) for row in rows)
+    one, two, three = (dot3(column, column) for column in columns)
+    first, second, third = (dot3(row, row) for row in rows)
+    return (one + two + three) * (first + second + third)
 
 
 def squared_condition(xp: Any, posture: Posture, loops: Loops, spin: Array) -> Array:

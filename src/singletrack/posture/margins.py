@@ -63,7 +63,8 @@ def margins(posture: Posture, bicycle: Bicycle, rider: Rider) -> Margins:
     if not posture.joints:
         return Margins(shares["arm"], shares["leg"], 0.0 * one, one, one)
     shape = posture.skeleton.points.shape[:-2]
-    condition, inertia = one, one
+    condition: Scalar = one
+    inertia: Scalar = one
     if posture.loops:
         xp, loops, (spin, _) = loops_of(posture, bicycle, shape)
         condition = squared_condition(xp, posture, loops, spin).reshape(shape)
