@@ -19,9 +19,10 @@ import numpy as np
 from singletrack.arrays import Fault, stretches
 from singletrack.closed_form.programs import MATRICES, program_of
 from singletrack.closed_form.round_tyres import on_round_tyres
+from singletrack.closed_form.single import NAMES
 from singletrack.closed_form.soundness import is_definite, sits
-from singletrack.model import COORDINATES, INPUTS, LinearModel
-from singletrack.posture import STEER, TORSO_LEAN, Margins, input_name
+from singletrack.model import LinearModel
+from singletrack.posture import STEER, TORSO_LEAN, Margins
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -100,10 +101,8 @@ def many_designs(
             sound &= sits(seated, rider)
             sound &= _leans(_lean(program, values))
         M, C1, K0, K2 = (found[k * n * n : (k + 1) * n * n].reshape(n, n, -1).transpose(2, 0, 1) for k in range(4))
-        more: Any = {}
-        if n > 2:
-            more = {"coordinates": (*COORDINATES, TORSO_LEAN), "inputs": (*INPUTS, input_name(TORSO_LEAN))}
-        model = LinearModel(M, C1, K0, K2, bicycle.gravity, **laws, **more)
+        names, (C0, S0) = NAMES[n], laws
+        model = LinearModel(M, C1, K0, K2, bicycle.gravity, C0=C0, S0=S0, coordinates=names[0], inputs=names[1])
         model = on_round_tyres(model, bicycle, None if rider is None else (found[size], found[size + 1]))
     if sound.all():
         return model
@@ -117,7 +116,7 @@ def many_designs(
 
 def _run(program: Program, values: tuple[Scalar, ...]) -> Array:
     """Return the entries (rows, N) that a program makes of values, arrays (N,) or numbers."""
-    count = len(next(value for value in values if np.ndim(value)))
+    count = max(np.size(value) for value in values)
     computed = _Kernels.computed[program.name] = _Kernels.computed.get(program.name, 0) + count
     if computed > _WORTH_COMPILING:
         use_compiled(program)
@@ -171,18 +170,20 @@ def _leans(lean: Scalar) -> Array:
     return np.asarray((lean > 0) & (lean < pi / 2))
 
 
-def _laws(options: Options, freedoms: int) -> dict[str, Array] | None:
-    """Return C0 and S0 where there are springs and dampers, on the steer or the torso's lean; None for others."""
-    found = {}
-    for matrix, amounts in (("C0", options.dampers), ("S0", options.springs)):
+def _laws(options: Options, freedoms: int) -> tuple[Array | None, Array | None] | None:
+    """Return C0 and S0 of springs and dampers on the steer or the torso's lean; None for others."""
+    found: list[Array | None] = []
+    for amounts in (options.dampers, options.springs):
+        total = None
         for name, amount in amounts.items():
             place = 1 if name == STEER else 2
             if name not in (STEER, TORSO_LEAN) or place >= freedoms or np.asarray(amount).dtype.kind not in "fiu":
                 return None
             law = np.zeros((*np.shape(amount), freedoms, freedoms))
             law[..., place, place] = amount
-            found[matrix] = found[matrix] + law if matrix in found else law
-    return found
+            total = law if total is None else total + law
+        found.append(total)
+    return found[0], found[1]
 
 
 def _with(model: LinearModel, others: LinearModel, which: np.ndarray) -> LinearModel:

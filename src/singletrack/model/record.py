@@ -155,14 +155,14 @@ class LinearModel:
         """
         batch = self.shape
 
-        def some(value: Array, axes: int, *, always: bool = False) -> Array:
+        def some(value: Scalar, axes: int, *, always: bool = False) -> Array:
             value = np.asarray(value)
             if value.ndim == axes and not always:
                 return value
             inner = value.shape[value.ndim - axes :]
             return np.broadcast_to(value, (*batch, *inner)).reshape(prod(batch), *inner)[which]
 
-        fields = {name: some(getattr(self, name), 2, always=name == "M") for name in (*_SQUARE, "B")}
+        fields: dict[str, Any] = {name: some(getattr(self, name), 2, always=name == "M") for name in (*_SQUARE, "B")}
         return dataclasses.replace(self, **fields, gravity=some(self.gravity, 0), faults=())
 
     def to_dict(self) -> dict[str, Any]:
