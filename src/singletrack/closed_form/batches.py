@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from singletrack.arrays import Fault, in_stretches, is_jax, valid_mask
+from singletrack.parameters.part import part_of_record
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -66,8 +67,8 @@ def in_parts(
     """
 
     def made(which: slice | np.ndarray) -> LinearModel:
-        of_rider = None if rider is None else rider.part(which, shape)
-        return make(bicycle.part(which, shape), of_rider, options.part(which, shape))
+        of_rider = None if rider is None else part_of_record(rider, which, shape)
+        return make(part_of_record(bicycle, which, shape), of_rider, options.part(which, shape))
 
     count = int(np.prod(shape))
     parts = _Parts(count)

@@ -22,6 +22,7 @@ from singletrack.closed_form.round_tyres import on_round_tyres
 from singletrack.closed_form.single import NAMES
 from singletrack.closed_form.soundness import is_definite, sits
 from singletrack.model import LinearModel
+from singletrack.parameters.part import part_of_record
 from singletrack.posture import STEER, TORSO_LEAN, Margins
 
 if TYPE_CHECKING:
@@ -110,8 +111,10 @@ def many_designs(
     # Two at least: NumPy adds up a single design in another order.
     again = np.resize(doubtful, max(2, len(doubtful)))
     shape = sound.shape
-    of_rider = None if rider is None else rider.part(again, shape)
-    return _with(model, by_arrays(bicycle.part(again, shape), of_rider, options.part(again, shape)), doubtful)
+    of_rider = None if rider is None else part_of_record(rider, again, shape)
+    return _with(
+        model, by_arrays(part_of_record(bicycle, again, shape), of_rider, options.part(again, shape)), doubtful
+    )
 
 
 def _run(program: Program, values: tuple[Scalar, ...]) -> Array:

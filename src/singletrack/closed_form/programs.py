@@ -16,6 +16,7 @@ from pathlib import Path
 from types import CodeType, FunctionType
 from typing import TYPE_CHECKING, Any
 
+from singletrack.errors import InputError
 from singletrack.parameters import Bicycle, Rider
 from singletrack.parameters.bicycle import FRAME_GEOMETRY
 from singletrack.posture import Options, file_of_posture
@@ -44,7 +45,7 @@ _OF_NUMBERS = {
 }
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Program:
     """The closed form of one structure.
 
@@ -108,7 +109,10 @@ def program_of(bicycle: Bicycle, rider: Rider | None, options: Options) -> Progr
         return None
     if options.fit is not None or not isinstance(options.posture, str):
         return None
-    name = file_of_posture(options.posture, options.shoulder, options.arms)
+    try:
+        name = file_of_posture(options.posture, options.shoulder, options.arms)
+    except InputError:  # said when the posture itself is asked for
+        return None
     return program_named(name + LEAN if options.torso_lean else name)
 
 

@@ -82,11 +82,15 @@ class LinearModel:
 
     def __post_init__(self) -> None:
         n, m = len(self.coordinates), len(self.inputs)
-        for name, default in (("C0", np.zeros((n, n))), ("S0", np.zeros((n, n))), ("B", np.eye(n, m))):
-            if getattr(self, name) is None:
-                object.__setattr__(self, name, default)
-        for name, wanted in {**dict.fromkeys(_SQUARE, (n, n)), "B": (n, m)}.items():
-            found = np.shape(getattr(self, name))
+        own, square = self.__dict__, (n, n)
+        for name in ("C0", "S0"):
+            if own[name] is None:
+                own[name] = np.zeros(square)
+        if own["B"] is None:
+            own["B"] = np.eye(n, m)
+        for name in (*_SQUARE, "B"):
+            value, wanted = own[name], square if name != "B" else (n, m)
+            found = value.shape if type(value) is np.ndarray else np.shape(value)
             if found[-2:] != wanted:
                 raise InputError(f"{name}: has shape {found}, must be (..., {wanted[0]}, {wanted[1]}) for the names")
 

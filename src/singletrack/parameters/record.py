@@ -5,14 +5,13 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from math import inf, prod
-from typing import TYPE_CHECKING, Any, ClassVar, Self
+from math import inf
+from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, Self
 
 import numpy as np
 
 from singletrack.arrays import Scalar, is_concrete
 from singletrack.arrays.faults import Fault, refuse_single
-from singletrack.arrays.stretches import part_of
 from singletrack.errors import InputError, SingletrackError
 from singletrack.parameters.description import ALLOWED, Parameter, faults_of_value, parameter
 from singletrack.parameters.display import line_of, table_of
@@ -104,11 +103,14 @@ class Record:
             If a name is unknown or a value is not allowed.
         """
         self.require_known(changes)
-        return dataclasses.replace(self, **changes)
+        own = self.__dict__
+        return type(self)(**{name: own[name] for name in _layout(type(self)).names} | changes)
 
     @classmethod
     def require_known(cls, names: Mapping[str, Any], also: tuple[str, ...] = ()) -> None:
         """Raise InputError for the first name that is no field of this record (nor one of ``also``)."""
+        if names.keys() <= cls.__dataclass_fields__.keys():
+            return
         for name in names:
             if name not in cls.__dataclass_fields__ and name not in also:
                 raise unknown_parameter(cls.kind, name, cls.descriptions())
@@ -116,7 +118,7 @@ class Record:
     def faults(self) -> tuple[Fault, ...]:
         """Return what is wrong with the values, with a mask over the batch each; sound numbers have no faults."""
         if self.is_single:
-            return tuple(self._faults())
+            return tuple(self._physical_faults() if _is_plain(self) else self._faults())
         # Numbers near the largest double overflow on the way to being refused.
         with np.errstate(over="ignore", invalid="ignore"):
             return tuple(self._faults())
@@ -138,37 +140,6 @@ class Record:
         """Yield faults that concern several parameters; only called on values that are numbers."""
         yield from ()
 
-    def part(self, which: slice | np.ndarray, shape: tuple[int, ...]) -> Self:
-        """Return some designs of a batch as a record of its own, on one axis, without their faults.
-
-        Nothing is checked again; what does not vary stays a number.
-
-        Parameters
-        ----------
-        which : slice or array of int
-            Designs, as numbered along one axis.
-        shape : tuple of int
-            Of a batch to which the parameters broadcast.
-
-        Examples
-        --------
-        >>> from singletrack import load_bicycle
-        >>> bicycle = load_bicycle("benchmark").replace(trail=[0.05, 0.06, 0.07])
-        >>> bicycle.part(slice(1, 3), (3,)).trail.tolist()
-        [0.06, 0.07]
-        """
-        other = object.__new__(type(self))
-        own = dict(self.__dict__)
-        for name, value in own.items():
-            if isinstance(value, np.ndarray):
-                own[name] = part_of(value, which, shape)
-            elif isinstance(value, FrozenDict):
-                own[name] = FrozenDict({key: part_of(one, which, shape) for key, one in value.items()})
-        length = range(prod(shape))[which] if isinstance(which, slice) else which
-        own["_standing"], own["_shape"] = (), (len(length),) if self.shape else ()
-        other.__dict__.update(own)
-        return other
-
     @property
     def is_single(self) -> bool:
         """Whether every parameter is one plain number: a single design, and not one that JAX looks at."""
@@ -182,30 +153,65 @@ class Record:
         return shape
 
 
-#: The descriptions by class, as reading them off the fields takes longer than checking the values.
-_DESCRIPTIONS: dict[type[Record], dict[str, Parameter]] = {}
+class _Layout(NamedTuple):
+    """What reading off the fields of a class of records takes longer than checking the values."""
+
+    names: tuple[str, ...]
+    descriptions: dict[str, Parameter]
+    texts: tuple[str, ...]
+    mappings: tuple[str, ...]
+    #: Each parameter's name, plain range and whether it is optional.
+    ranges: tuple[tuple[str, float, float, bool], ...]
+
+
+_LAYOUTS: dict[type[Record], _Layout] = {}
+
+
+def _layout(cls: type[Record]) -> _Layout:
+    if cls not in _LAYOUTS:
+        fields = dataclasses.fields(cls)
+        descriptions = {f.name: f.metadata["parameter"] for f in fields if "parameter" in f.metadata}
+        _LAYOUTS[cls] = _Layout(
+            tuple(f.name for f in fields),
+            descriptions,
+            tuple(f.name for f in fields if f.default == ""),
+            tuple(f.name for f in fields if f.default_factory is not dataclasses.MISSING),
+            tuple((name, *each.plain, each.optional) for name, each in descriptions.items()),
+        )
+    return _LAYOUTS[cls]
 
 
 def _descriptions(cls: type[Record]) -> dict[str, Parameter]:
-    if cls not in _DESCRIPTIONS:
-        fields = (f for f in dataclasses.fields(cls) if "parameter" in f.metadata)
-        _DESCRIPTIONS[cls] = {f.name: f.metadata["parameter"] for f in fields}
-    return _DESCRIPTIONS[cls]
+    return _layout(cls).descriptions
+
+
+def _is_plain(record: Record) -> bool:
+    """Tell whether each number of a single design is sound by itself, and none is missing; False where in doubt."""
+    own = record.__dict__
+    for name, low, high, optional in _layout(type(record)).ranges:
+        value = own[name]
+        if value is None:
+            if not optional:
+                return False
+        elif not low <= value <= high:
+            return False
+    return True
 
 
 def _take_texts(record: Record) -> None:
     """Refuse names that are no text; take copies of the mappings, which cannot be changed."""
-    own = record.__dict__
-    for f in dataclasses.fields(record):
-        value = own[f.name]
-        if f.default == "" and not isinstance(value, str):
-            reason = f"{f.name} = {value!r:.80}, must be text"
-            raise InputError(reason, parameters=(f.name,), found=value, allowed="text")
-        if f.default_factory is not dataclasses.MISSING:
-            if not isinstance(value, Mapping):
-                reason = f"{f.name} = {value!r:.80}, must be a dictionary"
-                raise InputError(reason, parameters=(f.name,), found=value, allowed="a dictionary")
-            own[f.name] = FrozenDict(value)
+    own, layout = record.__dict__, _layout(type(record))
+    for name in layout.texts:
+        value = own[name]
+        if not isinstance(value, str):
+            reason = f"{name} = {value!r:.80}, must be text"
+            raise InputError(reason, parameters=(name,), found=value, allowed="text")
+    for name in layout.mappings:
+        value = own[name]
+        if not isinstance(value, Mapping):
+            reason = f"{name} = {value!r:.80}, must be a dictionary"
+            raise InputError(reason, parameters=(name,), found=value, allowed="a dictionary")
+        own[name] = FrozenDict(value)
 
 
 def _check_mappings(record: Record) -> None:

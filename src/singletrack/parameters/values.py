@@ -81,7 +81,10 @@ def real_numbers(*values: Scalar) -> tuple[Any, ...] | None:
     >>> real_numbers(1.0, 2.0)
     (1.0, 2.0)
     """
-    if all(type(value) is float for value in values):
+    for value in values:
+        if type(value) is not float:
+            break
+    else:
         return values
     if not all(value is not None and is_concrete(value) for value in values):
         return None

@@ -39,6 +39,11 @@ class Margins(NamedTuple):
     condition: Scalar
     inertia: Scalar
 
+    @property
+    def shares(self) -> dict[str, Scalar]:
+        """How far limbs are stretched, by limb, shape (...) each, as in :func:`singletrack.body.reach.reach`."""
+        return {"arm": self.arm, "leg": self.leg}
+
 
 def margins(posture: Posture, bicycle: Bicycle, rider: Rider) -> Margins:
     """Return how sound a seated rider is; of postures with one free joint at the most.

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 from typing import TYPE_CHECKING, Self
 
 from singletrack import closed_form
@@ -41,7 +40,9 @@ class CoefficientMatrices(LinearModel):
     @classmethod
     def of(cls, model: LinearModel) -> Self:
         """Return a model of any maker as one that can be asked."""
-        return cls(**{field.name: getattr(model, field.name) for field in dataclasses.fields(LinearModel)})
+        asked = object.__new__(cls)
+        asked.__dict__.update(model.__dict__)  # what is a model already need not be looked at again
+        return asked
 
     def __repr__(self) -> str:
         return lines_of_model(self)
@@ -197,5 +198,8 @@ def coefficients(
     require_records(bicycle, rider)
     require_posture(posture)
     options = Options(named_posture(posture), shoulder, arms, torso_lean, springs or {}, dampers or {}, fit)
-    warn_of_oddities(bicycle, rider)
-    return CoefficientMatrices.of(closed_form.coefficients(bicycle, rider, options))
+    single = closed_form.single_design(bicycle, rider, options)
+    shares = None if single is None or single.margins is None else single.margins.shares
+    warn_of_oddities(bicycle, rider, shares)
+    model = closed_form.coefficients(bicycle, rider, options) if single is None else single.model
+    return CoefficientMatrices.of(model)
