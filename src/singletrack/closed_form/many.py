@@ -173,18 +173,18 @@ def _leans(lean: Scalar) -> Array:
     return np.asarray((lean > 0) & (lean < pi / 2))
 
 
-def _laws(options: Options, freedoms: int) -> tuple[Array | None, Array | None] | None:
+def _laws(options: Options, freedoms: int) -> tuple[Array, Array] | None:
     """Return C0 and S0 of springs and dampers on the steer or the torso's lean; None for others."""
-    found: list[Array | None] = []
+    found: list[Array] = []
     for amounts in (options.dampers, options.springs):
-        total = None
+        total = np.zeros((freedoms, freedoms))
         for name, amount in amounts.items():
             place = 1 if name == STEER else 2
             if name not in (STEER, TORSO_LEAN) or place >= freedoms or np.asarray(amount).dtype.kind not in "fiu":
                 return None
             law = np.zeros((*np.shape(amount), freedoms, freedoms))
             law[..., place, place] = amount
-            total = law if total is None else total + law
+            total = total + law
         found.append(total)
     return found[0], found[1]
 

@@ -225,16 +225,27 @@ def _null_vectors(model: LinearModel, v: np.ndarray, roots: np.ndarray) -> np.nd
     if model.freedoms > 2:
         return _null_vectors_by_lapack(model, v, roots)
     damping, stiffness = (np.asarray(part) for part in at_speeds(model, v))
-    s = roots[..., None, None]
-    M = np.asarray(model.M)[..., None, None, :, :]
-    pencil = M * s**2 + damping[..., None, :, :] * s + stiffness[..., None, :, :]
-    size = np.abs(pencil).sum(axis=-1)
-    row = np.where((size[..., 0] >= size[..., 1])[..., None], pencil[..., 0, :], pencil[..., 1, :])
-    lean, steer = row[..., 1], -row[..., 0]
-    pure_steer = np.abs(lean) <= np.finfo(float).tiny
+    M = np.asarray(model.M)[..., None, :, :]
+    square = roots * roots
+
+    def entry(i: int, j: int) -> np.ndarray:
+        m, c, k = (part[..., i, j, None] for part in (M, damping, stiffness))
+        result: np.ndarray = m * square + c * roots + k
+        return result
+
+    def size(z: np.ndarray) -> np.ndarray:
+        result: np.ndarray = np.abs(z.real) + np.abs(z.imag)
+        return result
+
+    (a, b), (c, d) = [[entry(i, j) for j in range(2)] for i in range(2)]
+    upper = size(a) + size(b) >= size(c) + size(d)
+    lean, steer = np.where(upper, b, d), -np.where(upper, a, c)
+    pure_steer = size(lean) <= np.finfo(float).tiny
+    motions = np.ones((*roots.shape, 2), dtype=complex)
     with np.errstate(invalid="ignore"):  # faulty designs of a batch are NaN throughout
-        ratio = np.where(pure_steer, 1.0, steer / np.where(pure_steer, 1.0, lean))
-    return np.stack([np.where(pure_steer, 0.0, 1.0 + 0j), ratio], axis=-1)
+        motions[..., 1] = steer / np.where(pure_steer, 1.0, lean)
+    motions[pure_steer] = (0.0, 1.0)
+    return motions
 
 
 def _null_vectors_by_lapack(model: LinearModel, v: np.ndarray, roots: np.ndarray) -> np.ndarray:

@@ -26,7 +26,8 @@ from singletrack.linear.meetings import Meetings, find_meetings
 from singletrack.linear.naming import follow
 from singletrack.linear.pencil import pencil
 from singletrack.linear.quartic.solve import quartic_roots
-from singletrack.linear.root_order import arrange, label_at_infinity, label_below, real_count
+from singletrack.linear.root_columns import in_columns
+from singletrack.linear.root_order import label_at_infinity, label_below, real_count
 from singletrack.model import COORDINATES
 
 if TYPE_CHECKING:
@@ -45,7 +46,7 @@ _LABELS = ("weave +", "weave -", "capsize", "castering")
 #: Designs of any number of freedoms followed at a time.
 _CHUNK = 256
 #: Problems in a stretch.
-_PROBLEMS = 8192
+_PROBLEMS = 32768
 
 
 @dataclass(frozen=True, eq=False)
@@ -227,29 +228,35 @@ def _follow(p: CharacteristicPolynomial, v: np.ndarray, roots: np.ndarray) -> np
     """Put roots (m, n, 4) into the columns of their modes."""
     meetings = find_meetings(p)
     counts, labels = _labels(p, meetings)
-    interval = (v[None, :, None] > meetings.speeds[:, None, :]).sum(axis=-1)
-    count = np.take_along_axis(counts, interval, axis=1)
-    ordered = arrange(roots, count, descending=v[None, :] < meetings.passing[:, None])
-    columns = np.take_along_axis(labels, interval[..., None], axis=1)
-    named = np.empty_like(roots)
-    np.put_along_axis(named, columns, ordered, axis=-1)
-    first, second = named[..., 0], named[..., 1]
-    both_real = (first.imag == 0) & (second.imag == 0)
-    swapped = ((first.imag < 0) & (second.imag > 0)) | (both_real & (first.real > second.real))
-    named[..., :2] = np.where(swapped[..., None], named[..., 1::-1], named[..., :2])
-    return named
+    interval = np.zeros(roots.shape[:-1], dtype=np.intp)
+    for speeds in meetings.speeds.T:
+        if np.isfinite(speeds).any():
+            interval += v > speeds[:, None]
+    return in_columns(roots, interval, counts, labels, v < meetings.passing[:, None])
 
 
 def _labels(p: CharacteristicPolynomial, meetings: Meetings) -> tuple[np.ndarray, np.ndarray]:
-    """Return, for m designs and 7 intervals, the number of real roots (m, 7) and the column of each place (m, 7, 4)."""
-    inside = meetings.between()
-    counts = real_count(quartic_roots(*p.monic_at(inside)))
-    finite = np.isfinite(meetings.speeds)
-    at = quartic_roots(*p.monic_at(np.where(finite, meetings.speeds, 1.0)))
-    descending = np.where(finite, meetings.speeds, 1.0) < meetings.passing[:, None]
+    """Return, for m designs and 7 intervals, the number of real roots (m, 7) and the column of each place (m, 7, 4).
+
+    What has no meeting at its upper end is as the interval above.
+    """
+    inside, finite = meetings.between(), np.isfinite(meetings.speeds)
+    counts = np.empty(inside.shape, dtype=np.intp)
+    counts[:, -1] = real_count(_roots_at(p, inside[:, -1]))
     labels = np.empty((*counts.shape, 4), dtype=np.intp)
     labels[:, -1] = label_at_infinity(p, counts[:, -1])
     for k in range(meetings.speeds.shape[1] - 1, -1, -1):
-        below = label_below(labels[:, k + 1], counts[:, k + 1], counts[:, k], at[:, k], descending[:, k])
-        labels[:, k] = np.where(finite[:, k, None], below, labels[:, k + 1])
+        counts[:, k], labels[:, k] = counts[:, k + 1], labels[:, k + 1]
+        row = np.flatnonzero(finite[:, k])
+        if not len(row):
+            continue
+        some, speed = p.rows(row), meetings.speeds[row, k]
+        counts[row, k] = real_count(_roots_at(some, inside[row, k]))
+        at, descending = _roots_at(some, speed), speed < meetings.passing[row]
+        labels[row, k] = label_below(labels[row, k + 1], counts[row, k + 1], counts[row, k], at, descending)
     return counts, labels
+
+
+def _roots_at(p: CharacteristicPolynomial, speeds: np.ndarray) -> np.ndarray:
+    """Return the roots (m, 4) of designs at a speed (m,) each."""
+    return quartic_roots(*p.monic_at(speeds[:, None]))[:, 0]
