@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from singletrack.analysis.designs import Design
-    from singletrack.arrays import Numbers
+    from singletrack.arrays import ArrayLike
     from singletrack.model import LinearModel
 
 __all__ = ["CHANGES", "KINDS", "Sensitivity", "sensitivity"]
@@ -124,7 +124,7 @@ class Sensitivity:
 def sensitivity(
     design: Design,
     kinds: Sequence[str] = ("critical speeds",),
-    speeds: Numbers = (),
+    speeds: ArrayLike = (),
     names: Sequence[str] = (),
     by: str = "step",
 ) -> Sensitivity:

@@ -3,8 +3,8 @@
 from singletrack.arrays.faults import Fault, refuse_single, valid_mask
 from singletrack.arrays.namespace import (
     Array,
-    Numbers,
-    Scalar,
+    ArrayLike,
+    Number,
     as_arrays,
     is_concrete,
     is_jax,
@@ -17,9 +17,9 @@ from singletrack.arrays.vectors import cross, dot, matvec, skew, stack, unit_vec
 
 __all__ = [
     "Array",
+    "ArrayLike",
     "Fault",
-    "Numbers",
-    "Scalar",
+    "Number",
     "as_arrays",
     "complex_allowed",
     "complex_steps",

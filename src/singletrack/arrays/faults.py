@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from singletrack.arrays.namespace import Array, Scalar, is_concrete
+from singletrack.arrays.namespace import Array, Number, is_concrete
 from singletrack.errors import SingletrackError
 
 if TYPE_CHECKING:
@@ -51,7 +51,7 @@ class Fault:
 
     bad: Array | bool
     text: str
-    values: Mapping[str, Scalar] = field(default_factory=dict)
+    values: Mapping[str, Number] = field(default_factory=dict)
     error: type[SingletrackError] = SingletrackError
     parameters: tuple[str, ...] = ()
     allowed: str = ""

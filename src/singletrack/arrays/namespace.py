@@ -1,6 +1,6 @@
 """The array API standard under the kernels: the same code on NumPy (default) and on JAX.
 
-``Array`` is an array of any shape and kind of number, ``Scalar`` a number or one for each design. Types are told for
+``Array`` is an array of any shape and kind of number, ``Number`` one number or one for each design. Types are told for
 NumPy; JAX's arrays answer to the same operations, though the two libraries share no type.
 From 2.1 on NumPy's own namespace is that of the standard, as far as the kernels use it.
 """
@@ -19,8 +19,8 @@ if TYPE_CHECKING:
 
 __all__ = [
     "Array",
-    "Numbers",
-    "Scalar",
+    "ArrayLike",
+    "Number",
     "as_arrays",
     "is_concrete",
     "is_jax",
@@ -31,12 +31,12 @@ __all__ = [
 #: An array; its shape stands in the docstring, batch dimensions first.
 Array: TypeAlias = "np.ndarray[Any, np.dtype[Any]]"
 #: A number, or an array of one number for each design, shape (...).
-Scalar: TypeAlias = "float | Array"
+Number: TypeAlias = "float | Array"
 #: Numbers as people give them, such as speeds: one, a sequence, or an array of any shape.
-Numbers: TypeAlias = "float | Sequence[float] | Array"
+ArrayLike: TypeAlias = "float | Sequence[float] | Array"
 
 
-def namespace(*values: Numbers) -> Any:
+def namespace(*values: ArrayLike) -> Any:
     """Return the array namespace of the values: JAX if any is a JAX array, else NumPy.
 
     >>> namespace(1.0, 2.0).__name__
@@ -45,7 +45,7 @@ def namespace(*values: Numbers) -> Any:
     return sys.modules["jax.numpy"] if is_jax(*values) else np
 
 
-def is_jax(*values: Numbers) -> bool:
+def is_jax(*values: ArrayLike) -> bool:
     """Tell whether any of the values is a JAX array (or stands for one while JAX traces a function)."""
     jax = sys.modules.get("jax")
     return jax is not None and any(isinstance(value, jax.Array) for value in values)
@@ -71,12 +71,12 @@ def require_double(value: Array) -> None:
         )
 
 
-def is_concrete(value: Scalar) -> bool:
+def is_concrete(value: Number) -> bool:
     """Tell whether a value can be looked at now (a JAX tracer cannot): a number, or an array (...)."""
     return not any(cls.__name__ == "Tracer" for cls in type(value).__mro__)
 
 
-def as_arrays(*values: Numbers) -> tuple[Any, tuple[Array, ...]]:
+def as_arrays(*values: ArrayLike) -> tuple[Any, tuple[Array, ...]]:
     """Return the namespace of the values, and the values as arrays of floating-point (or complex) numbers.
 
     Parameters

@@ -18,7 +18,7 @@ from singletrack.parameters.plausibility import Oddity, oddities
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
 
-    from singletrack.arrays import Scalar
+    from singletrack.arrays import Number
     from singletrack.parameters import Rider
 
 __all__ = ["frame_oddities", "warn_of_oddities"]
@@ -30,7 +30,7 @@ _SAID_TOGETHER: WeakKeyDictionary[Bicycle, WeakSet[Rider]] = WeakKeyDictionary()
 
 
 def warn_of_oddities(
-    record: Bicycle | Rider, rider: Rider | None = None, shares: Mapping[str, Scalar] | None = None
+    record: Bicycle | Rider, rider: Rider | None = None, shares: Mapping[str, Number] | None = None
 ) -> None:
     """Warn of what looks odd about a bicycle or rider, and about a rider's reach on a bicycle (:class:`OddityWarning`).
 
@@ -42,7 +42,7 @@ def warn_of_oddities(
     record : Bicycle or Rider
     rider : Rider, optional
         Seated on the bicycle.
-    shares : mapping of str to scalar, optional
+    shares : mapping of str to number, optional
         How far the limbs of a single rider are stretched, where that is known already
         (:func:`~singletrack.body.reach.reach`).
 
@@ -94,7 +94,7 @@ def frame_oddities(bicycle: Bicycle) -> tuple[Oddity, ...]:
     )
 
 
-def _warn_of_rider(bicycle: Bicycle, rider: Rider, shares: Mapping[str, Scalar] | None) -> None:
+def _warn_of_rider(bicycle: Bicycle, rider: Rider, shares: Mapping[str, Number] | None) -> None:
     on_it = _SAID_TOGETHER.setdefault(bicycle, WeakSet())
     if rider in on_it:
         return

@@ -11,7 +11,7 @@ from singletrack.parameters.plausibility import Oddity
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from singletrack.arrays import Scalar
+    from singletrack.arrays import Number
     from singletrack.parameters import Bicycle, Rider
 
 __all__ = ["reach", "reach_oddities", "seat_oddities"]
@@ -66,12 +66,12 @@ def seat_oddities(bicycle: Bicycle, rider: Rider) -> tuple[Oddity, ...]:
     return reach_oddities(reach(skeleton(bicycle, rider), rider))
 
 
-def reach_oddities(shares: Mapping[str, Scalar]) -> tuple[Oddity, ...]:
+def reach_oddities(shares: Mapping[str, Number]) -> tuple[Oddity, ...]:
     """Return what looks odd about how far limbs are stretched.
 
     Parameters
     ----------
-    shares : mapping of str to scalar
+    shares : mapping of str to number
         Of a single design, as :func:`reach` gives them.
     """
     targets = {"arm": "grip", "leg": "pedal"}

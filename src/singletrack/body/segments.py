@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from singletrack.arrays import Array, Scalar, as_arrays, dot, unit_vector
-from singletrack.mechanics.rigid import Body, combine
+from singletrack.arrays import Array, Number, as_arrays, dot, unit_vector
+from singletrack.mechanics.rigid import RigidBody, combine
 from singletrack.mechanics.solids import cylinder_inertia, gyration_inertia, prism_inertia, sphere_inertia
 
 if TYPE_CHECKING:
@@ -22,7 +22,7 @@ __all__ = ["Segment", "rider_segments"]
 
 
 @dataclass(frozen=True, eq=False)
-class Segment(Body):
+class Segment(RigidBody):
     """A body segment: a rigid body with its solid's shape, for drawing.
 
     Attributes
@@ -35,10 +35,10 @@ class Segment(Body):
 
     start: Array
     end: Array
-    radius: Scalar
+    radius: Number
 
 
-def _limbs(mass: Scalar, circumference: Scalar, length: Scalar, ends: Sequence[Array]) -> tuple[Segment, Segment]:
+def _limbs(mass: Number, circumference: Number, length: Number, ends: Sequence[Array]) -> tuple[Segment, Segment]:
     """Return the right and the left limb, from start to end each: mirror images."""
     _, (mass, radius, length) = as_arrays(mass, circumference / (2 * pi), length)
     inertia = cylinder_inertia(mass, radius, length, unit_vector(ends[1] - ends[0]))

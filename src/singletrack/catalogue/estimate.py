@@ -177,10 +177,7 @@ def _summary(
     centred = np.stack([array - array.mean() for array in known.values()])
     covariance = centred @ centred.T / (count - 1)
     deviations = dict(zip(known, np.sqrt(np.diag(covariance)).tolist(), strict=True))
-    averages = {
-        f"{collection.assemblies[i]}: {name}": (float(masses[:, i].mean()), float(masses[:, i].std()))
-        for i, name in enumerate(collection.prior.names)
-    }
+    averages = {name: (float(mass.mean()), float(mass.std())) for name, mass in _by_name(collection, masses).items()}
     source = "estimated from its geometry and from what components weigh (singletrack new); docs/howto/catalogue.md"
     values = {name: _rounded(value, deviations.get(name)) for name, value in values.items()}
     deviations = {name: float(f"{deviation:.2e}") for name, deviation in deviations.items()}
@@ -189,6 +186,14 @@ def _summary(
     texts = {"name": sheet.name}
     batch = Bicycle(**values | known | texts)
     return Estimate(own, tuple(known), covariance, batch, notes_of(geometry, collection, averages), averages)
+
+
+def _by_name(collection: Collection, masses: np.ndarray) -> dict[str, np.ndarray]:
+    """Return masses (n,) by ``assembly: component``; what has a place on each kind of bar is one component."""
+    found: dict[str, np.ndarray] = {}
+    for own, name, mass in zip(collection.assemblies, collection.prior.names, masses.T, strict=True):
+        found[f"{own}: {name}"] = found.get(f"{own}: {name}", 0.0) + mass
+    return found
 
 
 def _rounded(value: float, deviation: float | None) -> float:

@@ -18,7 +18,8 @@ if TYPE_CHECKING:
 
 __all__ = ["Geometry", "resolve"]
 
-#: A loaded tyre is lower by this share of its height (Berto's recommended drop).
+#: A loaded tyre is lower by this share of its height (Berto's drop, in Heine, Optimizing Your Tire Pressure for Your
+#: Weight, Bicycle Quarterly). Sizes by ETRTO are those of ISO 5775.
 _TYRE_DROP = 0.15
 #: Share of the sample that may be no bicycle.
 _BROKEN = 0.01

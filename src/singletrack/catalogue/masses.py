@@ -38,6 +38,8 @@ class Prior:
     choices, kinds : tuple of str
         "" for a component of no choice.
     probability : array, shape (c,)
+    fitted : array, shape (c,), optional
+        Of a component of a choice: probability that it is there where its kind is.
     """
 
     names: tuple[str, ...]
@@ -48,6 +50,7 @@ class Prior:
     choices: tuple[str, ...]
     kinds: tuple[str, ...]
     probability: np.ndarray
+    fitted: np.ndarray | None = None
 
     def covariance(self) -> np.ndarray:
         """Return the covariance of the masses, were all there, shape (c, c), in kg^2."""
@@ -140,6 +143,8 @@ def _presence(prior: Prior, members: np.ndarray, count: int, random: np.random.G
         drawn = random.choice(len(kinds), size=count, p=odds / odds.sum())
         for j in own:
             there[:, j] = drawn == kinds.index(prior.kinds[members[j]])
+            if prior.fitted is not None and prior.fitted[members[j]] < 1:
+                there[:, j] &= random.random(count) < prior.fitted[members[j]]
     return there
 
 

@@ -13,6 +13,9 @@ if TYPE_CHECKING:
 
 __all__ = ["points_of"]
 
+#: Share of a telescopic fork's offset that its crown has; the drop-outs have the rest.
+_SLID = 0.8
+
 
 def points_of(geometry: Geometry) -> dict[str, np.ndarray]:
     """Return the points that components hang on, by name, each of shape (n, 3), in m in the bicycle's frame.
@@ -55,6 +58,8 @@ def points_of(geometry: Geometry) -> dict[str, np.ndarray]:
         "head tube bottom": on_axis(crown + 0.02),
         "crown": on_axis(crown),
         "crown sides": on_axis(crown, 0.045),
+        # What slides is parallel to the steer axis: legs of a telescopic fork are ahead of it up to the crown.
+        "crown ahead": on_axis(crown, 0.065) + _SLID * _point(v["fork offset"] * cos, v["fork offset"] * sin),
         "front hub": _point(base, front),
         "front drop-out": _point(base, front, v["front_hub_width"] / 2),
         "front tyre top": on_axis(crown) + np.array([0.05, 0.0, 0.0]),

@@ -24,6 +24,8 @@ ASSEMBLIES = ("rear frame", "front frame", "rear wheel", "front wheel")
 BARS = {"flat": "straight bar", "riser": "straight bar", "city": "city bar", "drop": "drop bar"}
 #: Of the tyre that the table's masses are of: width and bead radius in m.
 _USUAL = (0.037, 0.311)
+#: Relative standard deviation of a single tube's mass per length beside what a frame's tubes share (source "tubes").
+_TUBE = 0.20
 
 
 @dataclass(frozen=True)
@@ -81,6 +83,7 @@ def collect(sheet: Sheet, geometry: Geometry, points: Mapping[str, np.ndarray]) 
         choices=tuple(row.choice for row in rows),
         kinds=tuple(row.kind for row in rows),
         probability=np.array([_probability(row, sheet) for row in rows]),
+        fitted=np.array([1.0 if sheet.fitted.get(row.name) else row.fitted for row in rows]),
     )
     return Collection(
         prior,
@@ -98,13 +101,8 @@ def _probability(component: Component, sheet: Sheet) -> float:
     if any(sheet.fitted.get(name) is False for name in own):
         return 0.0
     if component.choice:
-        rivals = {
-            name: other.kind
-            for other in components()
-            if other.choice == component.choice
-            for name in (other.name, other.kind)
-        }
-        chosen = {rivals[name] for name, there in sheet.fitted.items() if there and name in rivals}
+        rivals = [other for other in components() if other.choice == component.choice]
+        chosen = {other.kind for other in rivals if sheet.fitted.get(other.name) or sheet.fitted.get(other.kind)}
         if component.choice == "bar" and "bar" in sheet.texts:
             chosen |= {BARS[sheet.texts["bar"]]}
         if chosen:
@@ -120,9 +118,9 @@ def _mass(component: Component, geometry: Geometry, points: Mapping[str, np.ndar
         start, end = (points[component.form[key]][0] for key in ("from", "to"))
         metre = np.pi * (diameter - wall) * wall * density
         mean = float(component.count * metre * np.linalg.norm(end - start))
-        return mean, 0.15 * mean
+        return mean, _TUBE * mean
     mean, deviation = component.mass or (0.0, 0.0)
-    if component.shape == "hoop" and component.assembly.endswith("wheel") and not component.choice:
+    if component.shape == "hoop":
         end = component.assembly.partition(" ")[0]
         width, bead = geometry.values[f"{end} tyre width"][0], geometry.values[f"{end} bead"][0]
         size = 1.0 if component.form["to"][0] == "hub" else bead / _USUAL[1]

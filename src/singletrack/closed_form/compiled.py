@@ -19,7 +19,7 @@ from singletrack.closed_form.programs import FOLDER
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from singletrack.arrays import Array, Scalar
+    from singletrack.arrays import Array, Number
     from singletrack.closed_form.programs import Program
 
 __all__ = ["compiled_program", "loop_text"]
@@ -71,7 +71,7 @@ def loop_text(name: str) -> tuple[str, list[tuple[str, str]], int]:
     return "\n".join([*lines, ""]), turns, len(results)
 
 
-def compiled_program(program: Program) -> Callable[[tuple[Scalar, ...], int], Array]:
+def compiled_program(program: Program) -> Callable[[tuple[Number, ...], int], Array]:
     """Return the function from a program's values, arrays (N,) or numbers, and N to its entries (rows, N).
 
     Parameters
@@ -92,7 +92,7 @@ def compiled_program(program: Program) -> Callable[[tuple[Scalar, ...], int], Ar
     names = [*program.of_bicycle, *program.of_rider]
     places = [(_TURNS[turn], names.index(angle)) for turn, angle in turns]
 
-    def run(values: tuple[Scalar, ...], count: int) -> Array:
+    def run(values: tuple[Number, ...], count: int) -> Array:
         found = np.empty((rows, count))
         given, part = np.empty((len(names) + len(places), _BLOCK)), np.empty((rows, _BLOCK))
         for start in range(0, count, _BLOCK):

@@ -28,7 +28,7 @@ from singletrack.posture import STEER, TORSO_LEAN, Margins
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from singletrack.arrays import Array, Scalar
+    from singletrack.arrays import Array, Number
     from singletrack.closed_form.programs import Program
     from singletrack.parameters import Bicycle, Rider
     from singletrack.posture import Options
@@ -117,7 +117,7 @@ def many_designs(
     )
 
 
-def _run(program: Program, values: tuple[Scalar, ...]) -> Array:
+def _run(program: Program, values: tuple[Number, ...]) -> Array:
     """Return the entries (rows, N) that a program makes of values, arrays (N,) or numbers."""
     count = max(np.size(value) for value in values)
     computed = _Kernels.computed[program.name] = _Kernels.computed.get(program.name, 0) + count
@@ -139,7 +139,7 @@ def _run(program: Program, values: tuple[Scalar, ...]) -> Array:
 
 
 @cache
-def _function(program: Program) -> Callable[..., tuple[Scalar, ...]]:
+def _function(program: Program) -> Callable[..., tuple[Number, ...]]:
     return program.function(_OF_ARRAYS)
 
 
@@ -148,7 +148,7 @@ def _reader(program: Program) -> Callable[[dict[str, Any]], tuple[Any, ...]]:
     return itemgetter(*program.of_bicycle, *program.of_rider)
 
 
-def _values(program: Program, bicycle: Bicycle, rider: Rider | None) -> tuple[Scalar, ...] | None:
+def _values(program: Program, bicycle: Bicycle, rider: Rider | None) -> tuple[Number, ...] | None:
     """Return the values that a program takes, None if one is missing or complex."""
     own: dict[str, Any] = bicycle.__dict__
     if rider is not None:
@@ -164,11 +164,11 @@ def _values(program: Program, bicycle: Bicycle, rider: Rider | None) -> tuple[Sc
     return found
 
 
-def _lean(program: Program, values: tuple[Scalar, ...]) -> Scalar:
+def _lean(program: Program, values: tuple[Number, ...]) -> Number:
     return values[len(program.of_bicycle) + program.of_rider.index("forward_lean_angle")]
 
 
-def _leans(lean: Scalar) -> Array:
+def _leans(lean: Number) -> Array:
     """Tell whether a forward lean angle is between 0 and 90 degrees."""
     return np.asarray((lean > 0) & (lean < pi / 2))
 

@@ -16,7 +16,7 @@ from __future__ import annotations
 import dataclasses
 from typing import TYPE_CHECKING
 
-from singletrack.arrays import Scalar, as_arrays, stack
+from singletrack.arrays import Number, as_arrays, stack
 from singletrack.parameters.bodies import bicycle_bodies
 from singletrack.parameters.flexible import soft_hinges
 
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 __all__ = ["load_of_rider", "on_round_tyres"]
 
 
-def on_round_tyres(model: LinearModel, bicycle: Bicycle, rider_load: tuple[Scalar, Scalar] | None) -> LinearModel:
+def on_round_tyres(model: LinearModel, bicycle: Bicycle, rider_load: tuple[Number, Number] | None) -> LinearModel:
     """Return the model of a bicycle on its round tyres, where it has a tyre radius.
 
     Parameters
@@ -64,7 +64,7 @@ def on_round_tyres(model: LinearModel, bicycle: Bicycle, rider_load: tuple[Scala
     return dataclasses.replace(model, K0=K0)
 
 
-def load_of_rider(posture: Posture) -> tuple[Scalar, Scalar]:
+def load_of_rider(posture: Posture) -> tuple[Number, Number]:
     """Return a seated rider's mass in kg and its first moment about the rear contact along x in kg m, (...) each.
 
     Parameters
@@ -75,7 +75,7 @@ def load_of_rider(posture: Posture) -> tuple[Scalar, Scalar]:
     return sum(part.mass for part in segments), sum(part.mass * part.centre[..., 0] for part in segments)
 
 
-def _loads(bicycle: Bicycle, rider_load: tuple[Scalar, Scalar] | None) -> tuple[Scalar, Scalar]:
+def _loads(bicycle: Bicycle, rider_load: tuple[Number, Number] | None) -> tuple[Number, Number]:
     """Return the masses that rest on the front and on the rear wheel, kg, (...)."""
     own = bicycle_bodies(bicycle).values()
     mass = sum(body.mass for body in own)

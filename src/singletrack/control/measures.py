@@ -12,14 +12,14 @@ from singletrack.errors import InputError
 from singletrack.linear import modes, state_space
 
 if TYPE_CHECKING:
-    from singletrack.arrays import Numbers
+    from singletrack.arrays import ArrayLike
     from singletrack.linear import StateSpace
     from singletrack.model import LinearModel
 
 __all__ = ["distance_to_uncontrollability", "gramian", "modal_controllability"]
 
 
-def modal_controllability(model: LinearModel, speeds: Numbers) -> dict[str, np.ndarray]:
+def modal_controllability(model: LinearModel, speeds: ArrayLike) -> dict[str, np.ndarray]:
     """Return the angles between inputs and modes at speeds (k,), by input, shape (k, 2 n), in rad.
 
     The columns are the model's modes, in the order of their names; 90 deg: the mode is not reached.

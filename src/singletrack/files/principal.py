@@ -20,7 +20,7 @@ from singletrack.parameters.symbols import NAMES
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from singletrack.arrays import Scalar
+    from singletrack.arrays import Number
     from singletrack.files.named_values import NamedValues
 
 __all__ = ["bicycle_from_principal", "principal_values"]
@@ -148,6 +148,6 @@ def _principal(body: PlanarBody, letter: str) -> dict[str, float]:
     }
 
 
-def _gyration(moment: Scalar, mass: Scalar) -> float:
+def _gyration(moment: Number, mass: Number) -> float:
     """Return a radius of gyration: zero for a massless wheel, and for a moment of a rod that rounds to below zero."""
     return math.sqrt(max(float(moment), 0.0) / float(mass)) if mass else 0.0

@@ -14,7 +14,7 @@ from singletrack.linear.pencil import pencil
 from singletrack.linear.quartic.solve import CHUNK, quartic_roots, solve_into
 
 if TYPE_CHECKING:
-    from singletrack.arrays import Array, Numbers
+    from singletrack.arrays import Array, ArrayLike
     from singletrack.linear.characteristic import CharacteristicPolynomial
     from singletrack.model import LinearModel
 
@@ -25,7 +25,7 @@ _PROBLEMS = 4096
 __all__ = ["checked_speeds", "eigenmotions", "eigenvalues"]
 
 
-def checked_speeds(speeds: Numbers) -> np.ndarray:
+def checked_speeds(speeds: ArrayLike) -> np.ndarray:
     """Return speeds as an array (n,) in m/s.
 
     Raises
@@ -48,7 +48,7 @@ def checked_speeds(speeds: Numbers) -> np.ndarray:
     return array
 
 
-def eigenvalues(model: LinearModel, speeds: Numbers) -> Array:
+def eigenvalues(model: LinearModel, speeds: ArrayLike) -> Array:
     """Return the eigenvalues (..., k, 2 n) in 1/s at speeds (k,) in m/s, sorted by real then imaginary part.
 
     Roots of a pair are exact conjugates, real roots have an imaginary part of exactly zero. Designs of a batch that
@@ -122,7 +122,7 @@ def _by_lapack(model: LinearModel, v: np.ndarray) -> np.ndarray:
     return roots.reshape(*batch, *roots.shape[1:])
 
 
-def _one_axis(speeds: Numbers) -> Array:
+def _one_axis(speeds: ArrayLike) -> Array:
     xp, (v,) = as_arrays(speeds)
     return xp.reshape(v, (-1,))
 
@@ -172,7 +172,7 @@ def monic_quartic(M: Array, damping: Array, stiffness: Array) -> tuple[Array, Ar
     return b, c, mixed(damping, stiffness) / lead, mixed(stiffness, stiffness) / 2 / lead
 
 
-def eigenmotions(model: LinearModel, speeds: Numbers, roots: np.ndarray) -> np.ndarray:
+def eigenmotions(model: LinearModel, speeds: ArrayLike, roots: np.ndarray) -> np.ndarray:
     """Return the eigenmotion of each root: every coordinate, with lean normalised to one.
 
     Parameters

@@ -35,7 +35,7 @@ if TYPE_CHECKING:
 
     import xarray
 
-    from singletrack.arrays import Numbers
+    from singletrack.arrays import ArrayLike
     from singletrack.linear.characteristic import CharacteristicPolynomial
     from singletrack.model import LinearModel
 
@@ -137,7 +137,7 @@ class Modes:
         )
 
 
-def modes(model: LinearModel, speeds: Numbers) -> Modes:
+def modes(model: LinearModel, speeds: ArrayLike) -> Modes:
     """Return the named modes of designs (...) at speeds (k,).
 
     Parameters

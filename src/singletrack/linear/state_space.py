@@ -11,7 +11,7 @@ from singletrack.errors import InputError
 from singletrack.linear.eigenvalues import checked_speeds
 
 if TYPE_CHECKING:
-    from singletrack.arrays import Numbers
+    from singletrack.arrays import ArrayLike
     from singletrack.model import LinearModel
 
 __all__ = ["StateSpace", "state_space"]
@@ -60,7 +60,7 @@ class StateSpace:
         )
 
 
-def state_space(model: LinearModel, speed: Numbers) -> StateSpace:
+def state_space(model: LinearModel, speed: ArrayLike) -> StateSpace:
     """Return the first-order systems at a forward speed () or at several (k,) in m/s.
 
     Examples

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any, Self, cast
 
 import numpy as np
 
-from singletrack.arrays import Array, Fault, Scalar, is_concrete, namespace, valid_mask
+from singletrack.arrays import Array, Fault, Number, is_concrete, namespace, valid_mask
 from singletrack.errors import InputError
 from singletrack.model.written import read_fields
 
@@ -71,7 +71,7 @@ class LinearModel:
     C1: Array
     K0: Array
     K2: Array
-    gravity: Scalar
+    gravity: Number
     faults: tuple[Fault, ...] = ()
     # None: zero, and B takes each input to the coordinate in its place.
     C0: Array = field(default=cast("Array", None), kw_only=True)
@@ -120,12 +120,12 @@ class LinearModel:
         """True for the designs of the batch that nothing is wrong with, shape (...)."""
         return valid_mask(self.faults, self.shape)
 
-    def damping(self, speed: Scalar) -> Array:
+    def damping(self, speed: Number) -> Array:
         """Return C0 + v C1, shape (..., n, n), in N m s, at speeds (...) in m/s."""
         moving = _matrixwise(speed, self.C1) * self.C1
         return moving if self.is_undamped else self.C0 + moving
 
-    def stiffness(self, speed: Scalar) -> Array:
+    def stiffness(self, speed: Number) -> Array:
         """Return S0 + g K0 + v^2 K2, shape (..., n, n), in N m, at speeds (...) in m/s."""
         moving = _matrixwise(self.gravity, self.K0) * self.K0 + _matrixwise(speed, self.K2) ** 2 * self.K2
         return moving if self.is_undamped else self.S0 + moving
@@ -159,7 +159,7 @@ class LinearModel:
         """
         batch = self.shape
 
-        def some(value: Scalar, axes: int, *, always: bool = False) -> Array:
+        def some(value: Number, axes: int, *, always: bool = False) -> Array:
             value = np.asarray(value)
             if value.ndim == axes and not always:
                 return value
@@ -258,5 +258,5 @@ def concatenate(models: Sequence[LinearModel]) -> LinearModel:
     return dataclasses.replace(first, **joined, faults=tuple(faults))
 
 
-def _matrixwise(factor: Scalar, matrix: Array) -> Array:
+def _matrixwise(factor: Number, matrix: Array) -> Array:
     return namespace(factor, matrix).asarray(factor)[..., None, None]

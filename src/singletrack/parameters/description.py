@@ -19,7 +19,7 @@ from singletrack.errors import InputError
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
-    from singletrack.arrays import Array, Scalar
+    from singletrack.arrays import Array, Number
 
 __all__ = ["ALLOWED", "BOUNDS", "Parameter", "faults_of_value", "parameter"]
 
@@ -119,7 +119,7 @@ def parameter(
     return field(default=None, metadata=metadata)  # what is missing is told by the record, all at once
 
 
-def faults_of_value(name: str, value: Scalar, description: Parameter) -> Iterator[Fault]:
+def faults_of_value(name: str, value: Number, description: Parameter) -> Iterator[Fault]:
     """Yield what is wrong with one parameter: not finite, not allowed, beyond all bounds.
 
     A sound float yields nothing.

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, Self
 
 import numpy as np
 
-from singletrack.arrays import Scalar, is_concrete
+from singletrack.arrays import Number, is_concrete
 from singletrack.arrays.faults import Fault, refuse_single
 from singletrack.errors import InputError, SingletrackError
 from singletrack.parameters.description import ALLOWED, Parameter, faults_of_value, parameter
@@ -50,7 +50,7 @@ class Record:
     name: str = ""
     description: str = ""
     source: str = ""
-    standard_deviations: Mapping[str, Scalar] = field(default_factory=dict)
+    standard_deviations: Mapping[str, Number] = field(default_factory=dict)
     extras: Mapping[str, float] = field(default_factory=dict)
 
     def __new__(cls, *unnamed: Any, **named: Any) -> Self:
@@ -84,7 +84,7 @@ class Record:
         """Return the description of every parameter by name, in the order of the record."""
         return dict(_descriptions(cls))
 
-    def values(self) -> dict[str, Scalar]:
+    def values(self) -> dict[str, Number]:
         """Return the parameters that are present, by name.
 
         Each of a shape (...) of its own that broadcasts with the others, SI.
@@ -229,14 +229,14 @@ def _check_mappings(record: Record) -> None:
     own["extras"] = FrozenDict({name: _number_of(f"extras[{name!r}]", value) for name, value in record.extras.items()})
 
 
-def _number_of(name: str, value: Any) -> Scalar:
+def _number_of(name: str, value: Any) -> Number:
     try:
         return as_parameter(value)
     except InputError as error:
         raise error.of(name) from None
 
 
-def _is_spread(value: Scalar) -> bool:
+def _is_spread(value: Number) -> bool:
     """Tell whether a standard deviation is finite and not negative, as far as it can be looked at."""
     if isinstance(value, float):
         return 0 <= value < inf

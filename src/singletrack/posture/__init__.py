@@ -6,7 +6,7 @@ from singletrack.posture.margins import Margins, margins
 from singletrack.posture.mechanism import HANDLEBAR, Mechanism
 from singletrack.posture.options import ARMS, POSTURES, SHOULDERS, STEER, Options, input_name
 from singletrack.posture.residual import loop_residual
-from singletrack.posture.seated import Joint, Loop, Posture, seat, steer_axis
+from singletrack.posture.seated import Loop, Posture, SeatedJoint, seat, steer_axis
 from singletrack.posture.segment_motion import SlavedBodies, slaved_bodies
 from singletrack.posture.shipped import (
     TORSO_LEAN,
@@ -25,12 +25,12 @@ __all__ = [
     "SHOULDERS",
     "STEER",
     "TORSO_LEAN",
-    "Joint",
     "Loop",
     "Margins",
     "Mechanism",
     "Options",
     "Posture",
+    "SeatedJoint",
     "SlavedBodies",
     "SlavedMass",
     "file_of_posture",

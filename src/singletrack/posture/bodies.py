@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from singletrack.arrays import Array, Scalar, as_arrays, is_concrete, stack
+from singletrack.arrays import Array, Number, as_arrays, is_concrete, stack
 from singletrack.arrays.faults import Fault, refuse_single
 from singletrack.errors import PostureError
 from singletrack.posture.laws import laws_of
@@ -63,16 +63,16 @@ class SlavedMass:
         Designs of a batch that cannot sit or steer.
     """
 
-    moment_x: Scalar
-    moment_z: Scalar
-    inertia_xx: Scalar
-    inertia_xz: Scalar
-    inertia_zz: Scalar
-    spin_x: Sequence[Scalar] = (0.0,)
-    spin_z: Sequence[Scalar] = (0.0,)
-    lateral: Sequence[Scalar] = (0.0,)
-    inner: Sequence[Scalar] = (0.0,)
-    sinking: Sequence[Scalar] = (0.0,)
+    moment_x: Number
+    moment_z: Number
+    inertia_xx: Number
+    inertia_xz: Number
+    inertia_zz: Number
+    spin_x: Sequence[Number] = (0.0,)
+    spin_z: Sequence[Number] = (0.0,)
+    lateral: Sequence[Number] = (0.0,)
+    inner: Sequence[Number] = (0.0,)
+    sinking: Sequence[Number] = (0.0,)
     freedoms: tuple[str, ...] = ()
     damping: Array | None = None
     stiffness: Array | None = None

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
-from singletrack.arrays import Scalar, as_arrays
+from singletrack.arrays import Number, as_arrays
 from singletrack.body.reach import reach
 from singletrack.posture.bodies import slaved_mass
 from singletrack.posture.inverses import squared_condition
@@ -33,14 +33,14 @@ class Margins(NamedTuple):
         That of the free joint as a fraction of the whole rider's about the rear contact; one without free joints.
     """
 
-    arm: Scalar
-    leg: Scalar
-    residual: Scalar
-    condition: Scalar
-    inertia: Scalar
+    arm: Number
+    leg: Number
+    residual: Number
+    condition: Number
+    inertia: Number
 
     @property
-    def shares(self) -> dict[str, Scalar]:
+    def shares(self) -> dict[str, Number]:
         """How far limbs are stretched, by limb, shape (...) each, as in :func:`singletrack.body.reach.reach`."""
         return {"arm": self.arm, "leg": self.leg}
 
@@ -68,8 +68,8 @@ def margins(posture: Posture, bicycle: Bicycle, rider: Rider) -> Margins:
     if not posture.joints:
         return Margins(shares["arm"], shares["leg"], 0.0 * one, one, one)
     shape = posture.skeleton.points.shape[:-2]
-    condition: Scalar = one
-    inertia: Scalar = one
+    condition: Number = one
+    inertia: Number = one
     if posture.loops:
         xp, loops, (spin, _) = loops_of(posture, bicycle, shape)
         condition = squared_condition(xp, posture, loops, spin).reshape(shape)

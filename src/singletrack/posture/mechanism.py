@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from singletrack.arrays import Scalar
+from singletrack.arrays import Number
 from singletrack.errors import InputError, unknown_name
 
 __all__ = ["FRAME", "HANDLEBAR", "SEGMENTS", "Direction", "JointPlan", "LoopPlan", "Mechanism", "Place"]
@@ -97,9 +97,9 @@ class JointPlan:
     axis: Direction
     slides: bool = False
     free: bool = False
-    stiffness: Scalar = 0.0
-    damping: Scalar = 0.0
-    preload: Scalar = 0.0
+    stiffness: Number = 0.0
+    damping: Number = 0.0
+    preload: Number = 0.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -126,8 +126,8 @@ class LoopPlan:
     to: str = HANDLEBAR
     point: Place | None = None
     perpendicular: tuple[Direction, Direction] | None = None
-    stiffness: Scalar | None = None
-    damping: Scalar = 0.0
+    stiffness: Number | None = None
+    damping: Number = 0.0
     at: Place | None = None
 
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
-from singletrack.arrays import Array, Scalar, is_jax, stack
+from singletrack.arrays import Array, Number, is_jax, stack
 from singletrack.posture.inverses import solver_of
 from singletrack.posture.loops import Loops
 from singletrack.posture.seated import steer_axis
@@ -129,7 +129,7 @@ def _solve(xp: Any, posture: Posture, loops: Loops, joints: tuple[Array, Array],
     return replace(motion, bends=_fill(motion.bends, dependent, -solve(loops.bending(xp, motion))))
 
 
-def _fill(whole: Array, index: Any, values: Scalar) -> Any:
+def _fill(whole: Array, index: Any, values: Number) -> Any:
     """Return an array with some of its entries replaced."""
     if is_jax(whole, values):
         from jax import numpy as jnp

@@ -8,7 +8,7 @@ from typing import Self
 
 import numpy as np
 
-from singletrack.arrays import Scalar, is_concrete, part_of
+from singletrack.arrays import Number, is_concrete, part_of
 from singletrack.errors import InputError, unknown_name
 from singletrack.library import shipped
 from singletrack.posture.mechanism import Mechanism
@@ -65,9 +65,9 @@ class Options:
     shoulder: str | None = None
     arms: str | None = None
     torso_lean: bool = False
-    springs: Mapping[str, Scalar] = field(default_factory=dict)
-    dampers: Mapping[str, Scalar] = field(default_factory=dict)
-    fit: Scalar | None = None
+    springs: Mapping[str, Number] = field(default_factory=dict)
+    dampers: Mapping[str, Number] = field(default_factory=dict)
+    fit: Number | None = None
 
     def __post_init__(self) -> None:
         if isinstance(self.posture, str) and self.posture not in POSTURES and self.posture not in shipped("posture"):
@@ -108,7 +108,7 @@ class Options:
             Of the batch, to which springs and dampers broadcast.
         """
 
-        def some(value: Scalar) -> Scalar:
+        def some(value: Number) -> Number:
             return part_of(np.asarray(value) if np.ndim(value) else value, which, shape)
 
         springs, dampers = (
@@ -149,7 +149,7 @@ class Options:
                 raise InputError(f"{what} needs a rider; allowed without one: {allowed}")
 
 
-def _refuse_negative(what: str, value: Scalar, unit: str) -> None:
+def _refuse_negative(what: str, value: Number, unit: str) -> None:
     if not is_concrete(value):
         return
     numbers = np.asarray(value)

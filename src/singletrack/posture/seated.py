@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 from singletrack.arrays import (
     Array,
     Fault,
-    Scalar,
+    Number,
     as_arrays,
     cross,
     dot,
@@ -36,14 +36,14 @@ if TYPE_CHECKING:
 
     from singletrack.parameters import Rider
 
-__all__ = ["Joint", "Loop", "Posture", "seat", "steer_axis"]
+__all__ = ["Loop", "Posture", "SeatedJoint", "seat", "steer_axis"]
 
 #: Points further apart (m) and cosines larger than this are not closed.
 _CLOSED = 1e-9
 
 
 @dataclass(frozen=True, eq=False)
-class Joint:
+class SeatedJoint:
     """A hinge of the rider, or a slider.
 
     Attributes
@@ -65,9 +65,9 @@ class Joint:
     axis: Array
     slides: bool = False
     free: bool = False
-    stiffness: Scalar = 0.0
-    damping: Scalar = 0.0
-    preload: Scalar = 0.0
+    stiffness: Number = 0.0
+    damping: Number = 0.0
+    preload: Number = 0.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -105,7 +105,7 @@ class Posture:
     skeleton : Skeleton
     segments : dict of str to Segment
         The rider's bodies by name.
-    joints : tuple of Joint
+    joints : tuple of SeatedJoint
         Each after its parent.
     loops : tuple of Loop
     carried_by : dict of str to str
@@ -118,15 +118,15 @@ class Posture:
     shoulder: str
     skeleton: Skeleton
     segments: dict[str, Segment]
-    joints: tuple[Joint, ...] = ()
+    joints: tuple[SeatedJoint, ...] = ()
     loops: tuple[Loop, ...] = ()
     carried_by: dict[str, str] | None = None
     faults: tuple[Fault, ...] = ()
 
-    def chain(self, joint: str) -> tuple[Joint, ...]:
+    def chain(self, joint: str) -> tuple[SeatedJoint, ...]:
         """Return the joints from the rear frame out to ``joint``, in order ("" gives none)."""
         by_name = {j.name: j for j in self.joints}
-        chain: list[Joint] = []
+        chain: list[SeatedJoint] = []
         while joint:
             chain.insert(0, by_name[joint])
             joint = by_name[joint].parent
@@ -180,7 +180,7 @@ def seat(bicycle: Bicycle, rider: Rider, options: Options | str = "rigid") -> Po
     points = skeleton(bicycle, rider)
     resolve = _Resolver(points, bicycle)
     joints = tuple(
-        Joint(
+        SeatedJoint(
             plan.name,
             _link(plan.parent),
             resolve.place(plan.point),

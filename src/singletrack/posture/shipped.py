@@ -18,7 +18,7 @@ from singletrack.posture.options import POSTURES, STEER, Options
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from singletrack.arrays import Scalar
+    from singletrack.arrays import Number
 
 __all__ = ["TORSO_LEAN", "file_of_posture", "is_posture", "load_posture", "mechanism_of", "named_posture"]
 
@@ -231,7 +231,7 @@ def _carries_legs_only(mechanism: Mechanism, root: JointPlan) -> bool:
     return bool(carried) and all("leg" in segment for segment in carried)
 
 
-def _sprung(mechanism: Mechanism, springs: Mapping[str, Scalar], dampers: Mapping[str, Scalar]) -> Mechanism:
+def _sprung(mechanism: Mechanism, springs: Mapping[str, Number], dampers: Mapping[str, Number]) -> Mechanism:
     """Return a mechanism with springs and dampers at joints and hands by name, in place of its own."""
     joints = {joint.name: joint for joint in mechanism.joints}
     loops = {loop.name: loop for loop in mechanism.loops if loop.point is not None}

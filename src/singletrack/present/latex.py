@@ -9,7 +9,7 @@ import numpy as np
 from singletrack.model.record import UNITS
 
 if TYPE_CHECKING:
-    from singletrack.arrays import Scalar
+    from singletrack.arrays import Number
     from singletrack.linear import CriticalSpeeds
     from singletrack.model import LinearModel
 
@@ -82,7 +82,7 @@ def _unit(unit: str) -> str:
     return unit.replace("^2", "$^2$").replace(" ", r"\,")
 
 
-def _bare(value: Scalar, digits: int) -> str:
+def _bare(value: Number, digits: int) -> str:
     return f"{float(np.asarray(value).real):.{digits}g}"
 
 

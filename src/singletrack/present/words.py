@@ -10,7 +10,7 @@ from singletrack.files.toml_write import unit_text
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
-    from singletrack.arrays import Scalar
+    from singletrack.arrays import Number
     from singletrack.linear import CriticalSpeeds
     from singletrack.linear.critical import Crossing
 
@@ -54,7 +54,7 @@ def quantity_text(values: Sequence[float], unit: str) -> str:
     return f"{numbers} {unit_text(unit)}".rstrip()
 
 
-def deviation_text(deviation: Scalar | None, unit: str) -> str:
+def deviation_text(deviation: Number | None, unit: str) -> str:
     """Return a standard deviation beside its quantity, or nothing where there is none.
 
     Parameters

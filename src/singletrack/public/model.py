@@ -19,7 +19,8 @@ if TYPE_CHECKING:
 
     from matplotlib.figure import Figure
 
-    from singletrack.arrays import Array, Numbers, Scalar
+    from singletrack.analysis.uncertainty import EigenvalueUncertainty
+    from singletrack.arrays import Array, ArrayLike, Number
     from singletrack.parameters import Bicycle, Rider
     from singletrack.posture import Mechanism
 
@@ -51,7 +52,7 @@ class CoefficientMatrices(LinearModel):
         """Return the matrices as a table, for notebooks."""
         return table_of_model(self)
 
-    def eigenvalues(self, speeds: Numbers) -> Array:
+    def eigenvalues(self, speeds: ArrayLike) -> Array:
         """Return the eigenvalues at forward speeds, sorted by real then imaginary part.
 
         Parameters
@@ -66,7 +67,7 @@ class CoefficientMatrices(LinearModel):
         """
         return eigenvalues(self, speeds)
 
-    def modes(self, speeds: Numbers) -> Modes:
+    def modes(self, speeds: ArrayLike) -> Modes:
         """Return the eigenvalues as named modes, followed through the speeds (see :class:`Modes`)."""
         return modes(self, speeds)
 
@@ -76,12 +77,13 @@ class CoefficientMatrices(LinearModel):
 
     def plot(
         self,
-        speeds: Numbers = (0.0, 10.0),
+        speeds: ArrayLike = (0.0, 10.0),
         *,
         width: float = 84.0,
         title: str = "",
         kmh: bool = False,
         limit: float = 10.0,
+        uncertainty: EigenvalueUncertainty | None = None,
     ) -> Figure:
         """Return a figure of the eigenvalues over the forward speed; notebooks show it.
 
@@ -97,6 +99,9 @@ class CoefficientMatrices(LinearModel):
             Show speeds in km/h.
         limit : float
             The vertical axis runs from -limit to limit, in 1/s.
+        uncertainty : EigenvalueUncertainty, optional
+            Of a single design, whose central 95 % are shaded: see
+            :func:`~singletrack.analysis.uncertainty.eigenvalue_uncertainty`.
 
         Returns
         -------
@@ -106,7 +111,7 @@ class CoefficientMatrices(LinearModel):
         Raises
         ------
         InputError
-            For a batch of more than one axis, or a speed that is negative or not finite.
+            For a batch of more than one axis, or one with ``uncertainty``; for a speed that is negative or not finite.
 
         Examples
         --------
@@ -115,7 +120,7 @@ class CoefficientMatrices(LinearModel):
         >>> [text.get_text() for text in figure.axes[0].texts][0]
         'weave speed 4.29 m/s'
         """
-        return figure_of_model(self, speeds, width=width, title=title, kmh=kmh, limit=limit)
+        return figure_of_model(self, speeds, width=width, title=title, kmh=kmh, limit=limit, uncertainty=uncertainty)
 
     def to_latex(self, caption: str = "", digits: int = 5) -> str:
         """Return the matrices and critical speeds of a single design as a table of LaTeX.
@@ -129,7 +134,7 @@ class CoefficientMatrices(LinearModel):
         """
         return latex_table(self, self.critical_speeds(), caption, digits)
 
-    def state_space(self, speed: Numbers) -> StateSpace:
+    def state_space(self, speed: ArrayLike) -> StateSpace:
         """Return the equations at one or several forward speeds in m/s as first-order systems (:class:`StateSpace`)."""
         return state_space(self, speed)
 
@@ -142,9 +147,9 @@ def coefficients(
     *,
     arms: str | None = None,
     torso_lean: bool = False,
-    springs: Mapping[str, Scalar] | None = None,
-    dampers: Mapping[str, Scalar] | None = None,
-    fit: Scalar | None = None,
+    springs: Mapping[str, Number] | None = None,
+    dampers: Mapping[str, Number] | None = None,
+    fit: Number | None = None,
 ) -> CoefficientMatrices:
     """Return the linearised equations of motion of a bicycle, alone or with a rider.
 

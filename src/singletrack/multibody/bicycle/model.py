@@ -34,8 +34,8 @@ from singletrack.posture import STEER, Options, input_name, require_records, sea
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from singletrack.mechanics import Body as Solid
-    from singletrack.multibody.engine.elements import Joint, Scalar
+    from singletrack.mechanics import RigidBody
+    from singletrack.multibody.engine.elements import Joint, Number
     from singletrack.multibody.engine.model import State
     from singletrack.parameters import Bicycle, Rider
     from singletrack.parameters.flexible import SoftHinge
@@ -67,7 +67,7 @@ def _refuse_skates(bicycle: Bicycle) -> None:
             )
 
 
-def _solid(numbers: Numbers, name: str, solid: Solid) -> Body:
+def _solid(numbers: Numbers, name: str, solid: RigidBody) -> Body:
     return Body(
         name,
         numbers.number(f"{name} mass", solid.mass),
@@ -76,7 +76,7 @@ def _solid(numbers: Numbers, name: str, solid: Solid) -> Body:
     )
 
 
-def _wheel(bicycle: Bicycle, numbers: Numbers, end: str, hub: tuple[Scalar, ...]) -> Wheel:
+def _wheel(bicycle: Bicycle, numbers: Numbers, end: str, hub: tuple[Number, ...]) -> Wheel:
     """Return a wheel, on a round tyre where the bicycle has one."""
     name, crown = f"{end} wheel", getattr(bicycle, f"{end}_tyre_radius")
     radius = numbers.always(f"{end} radius", getattr(bicycle, f"{end}_wheel_radius"))
@@ -91,7 +91,7 @@ def _elements(bicycle: Bicycle, posture: Posture | None, options: Options, numbe
     tilt = float(bicycle.steer_axis_tilt)
     foot = numbers.vector("steer axis foot", (float(bicycle.wheel_base) + float(bicycle.trail), 0.0, 0.0))
     axis = numbers.vector("steer axis", (np.sin(tilt), 0.0, np.cos(tilt)))
-    hubs: dict[str, tuple[Scalar, ...]] = {
+    hubs: dict[str, tuple[Number, ...]] = {
         end: numbers.vector(f"{end} hub", solids[f"{end} wheel"].centre) for end in ("rear", "front")
     }
     soft = {hinge.name: hinge for hinge in soft_hinges(bicycle)}
