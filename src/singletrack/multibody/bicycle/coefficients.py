@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from singletrack.arrays import Array
-    from singletrack.multibody.engine.elements import Number
+    from singletrack.multibody.engine.elements import Scalar
     from singletrack.multibody.engine.model import State
     from singletrack.parameters import Bicycle, Rider
     from singletrack.posture import Options
@@ -78,7 +78,7 @@ def coefficients(bicycle: Bicycle, rider: Rider | None = None, options: Options 
     )
 
 
-def _is_zero(number: Number) -> bool:
+def _is_zero(number: Scalar) -> bool:
     return is_number(number) and float(number) == 0.0
 
 

@@ -35,7 +35,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from singletrack.mechanics import RigidBody
-    from singletrack.multibody.engine.elements import Joint, Number
+    from singletrack.multibody.engine.elements import Joint, Scalar
     from singletrack.multibody.engine.model import State
     from singletrack.parameters import Bicycle, Rider
     from singletrack.parameters.flexible import SoftHinge
@@ -76,7 +76,7 @@ def _solid(numbers: Numbers, name: str, solid: RigidBody) -> Body:
     )
 
 
-def _wheel(bicycle: Bicycle, numbers: Numbers, end: str, hub: tuple[Number, ...]) -> Wheel:
+def _wheel(bicycle: Bicycle, numbers: Numbers, end: str, hub: tuple[Scalar, ...]) -> Wheel:
     """Return a wheel, on a round tyre where the bicycle has one."""
     name, crown = f"{end} wheel", getattr(bicycle, f"{end}_tyre_radius")
     radius = numbers.always(f"{end} radius", getattr(bicycle, f"{end}_wheel_radius"))
@@ -91,7 +91,7 @@ def _elements(bicycle: Bicycle, posture: Posture | None, options: Options, numbe
     tilt = float(bicycle.steer_axis_tilt)
     foot = numbers.vector("steer axis foot", (float(bicycle.wheel_base) + float(bicycle.trail), 0.0, 0.0))
     axis = numbers.vector("steer axis", (np.sin(tilt), 0.0, np.cos(tilt)))
-    hubs: dict[str, tuple[Number, ...]] = {
+    hubs: dict[str, tuple[Scalar, ...]] = {
         end: numbers.vector(f"{end} hub", solids[f"{end} wheel"].centre) for end in ("rear", "front")
     }
     soft = {hinge.name: hinge for hinge in soft_hinges(bicycle)}

@@ -10,7 +10,7 @@ from singletrack.multibody.engine.elements import parameter
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from singletrack.multibody.engine.elements import Number
+    from singletrack.multibody.engine.elements import Scalar
 
 __all__ = ["Numbers"]
 
@@ -36,7 +36,7 @@ class Numbers:
     values: dict[str, float] = field(default_factory=dict)
     structure: dict[str, float] = field(default_factory=dict)
 
-    def number(self, name: str, value: Any) -> Number:
+    def number(self, name: str, value: Any) -> Scalar:
         """Return a parameter for a number, or the number where it is structural.
 
         Parameters
@@ -53,7 +53,7 @@ class Numbers:
         self.values[name] = value
         return parameter(name)
 
-    def always(self, name: str, value: Any) -> Number:
+    def always(self, name: str, value: Any) -> Scalar:
         """Return a parameter for a number, whatever it is.
 
         Parameters
@@ -66,7 +66,7 @@ class Numbers:
         self.values[name] = float(value)
         return parameter(name)
 
-    def vector(self, name: str, components: Iterable[Any]) -> tuple[Number, ...]:
+    def vector(self, name: str, components: Iterable[Any]) -> tuple[Scalar, ...]:
         """Return three parameters, ``name.x`` to ``name.z``.
 
         Parameters
@@ -78,7 +78,7 @@ class Numbers:
         """
         return tuple(self.number(f"{name}.{axis}", value) for axis, value in zip("xyz", components, strict=True))
 
-    def inertia(self, name: str, matrix: Any) -> tuple[Number, ...]:
+    def inertia(self, name: str, matrix: Any) -> tuple[Scalar, ...]:
         """Return the six parameters of an inertia matrix (3, 3), as :class:`~singletrack.multibody.Body` takes them.
 
         Parameters

@@ -10,7 +10,7 @@ import numpy as np
 
 from singletrack.errors import ModelError
 from singletrack.multibody.engine.checks import check_axis, check_number, check_vector, is_number
-from singletrack.multibody.engine.elements import Number, Vector
+from singletrack.multibody.engine.elements import Scalar, Vector
 
 __all__ = ["Closure", "Ratio", "close_direction", "close_distance", "close_joint", "close_point"]
 
@@ -42,7 +42,7 @@ class Closure:
     second_point: Vector = (0.0, 0.0, 0.0)
     directions: tuple[Vector, ...] = ()
     orthogonal: tuple[tuple[Vector, Vector], ...] = ()
-    length: Number = None
+    length: Scalar = None
 
     def __post_init__(self) -> None:
         element = f"loop {self.name}"
@@ -103,7 +103,7 @@ def close_point(
     return Closure(name, first, second, point, point if second_point is None else second_point, directions)
 
 
-def close_distance(name: str, first: str, second: str, points: tuple[Vector, Vector], length: Number) -> Closure:
+def close_distance(name: str, first: str, second: str, points: tuple[Vector, Vector], length: Scalar) -> Closure:
     """Return a loop closed by a massless rod of fixed length (m) between two points.
 
     Parameters
@@ -226,8 +226,8 @@ class Ratio:
     """
 
     name: str
-    factors: Mapping[str, Number]
-    offset: Number = 0.0
+    factors: Mapping[str, Scalar]
+    offset: Scalar = 0.0
 
     def __post_init__(self) -> None:
         element = f"ratio {self.name}"

@@ -9,7 +9,7 @@ import numpy as np
 
 from singletrack.errors import ModelError
 from singletrack.multibody.engine.checks import check_axis, check_number, check_vector, is_number
-from singletrack.multibody.engine.elements import GROUND, Number, Vector
+from singletrack.multibody.engine.elements import GROUND, Scalar, Vector
 
 __all__ = ["CoordinateForce", "Force", "Sensor", "Spring", "Torque", "Wheel"]
 
@@ -35,9 +35,9 @@ class Wheel:
     name: str
     body: str
     centre: Vector
-    radius: Number
+    radius: Scalar
     axle: Vector = (0.0, 1.0, 0.0)
-    crown: Number = 0.0
+    crown: Scalar = 0.0
 
     def __post_init__(self) -> None:
         element = f"wheel {self.name}"
@@ -61,10 +61,10 @@ class Spring:
     second: str
     first_point: Vector
     second_point: Vector
-    stiffness: Number = 0.0
-    damping: Number = 0.0
-    rest: Number = 0.0
-    preload: Number = 0.0
+    stiffness: Scalar = 0.0
+    damping: Scalar = 0.0
+    rest: Scalar = 0.0
+    preload: Scalar = 0.0
 
     def __post_init__(self) -> None:
         element = f"spring {self.name}"

@@ -31,14 +31,14 @@ __all__ = [
 GROUND = "ground"
 X, Y, Z = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
 
-Number: TypeAlias = Any
+Scalar: TypeAlias = Any
 """A number or a parameter."""
-Vector: TypeAlias = "Sequence[Number]"
+Vector: TypeAlias = "Sequence[Scalar]"
 """Three numbers or parameters."""
 
 
 @cache
-def parameter(name: str) -> Number:
+def parameter(name: str) -> Scalar:
     """Return a number that gets its value when the model is used; the same name is the same number.
 
     The strength of gravity is one already: ``gravity``.
@@ -58,7 +58,7 @@ def parameter(name: str) -> Number:
     return ca.SX.sym(name)
 
 
-def parameters(*names: str) -> tuple[Number, ...]:
+def parameters(*names: str) -> tuple[Scalar, ...]:
     """Return several parameters, one a name.
 
     >>> parameters("saddle.x", "saddle.z")
@@ -99,9 +99,9 @@ class Body:
     """
 
     name: str
-    mass: Number = 0.0
+    mass: Scalar = 0.0
     centre: Vector = (0.0, 0.0, 0.0)
-    inertia: Sequence[Number] = (0.0, 0.0, 0.0)
+    inertia: Sequence[Scalar] = (0.0, 0.0, 0.0)
 
     def __post_init__(self) -> None:
         element = f"body {self.name}"
@@ -136,9 +136,9 @@ class Motion:
     name: str
     rotates: bool
     axis: Vector
-    stiffness: Number = 0.0
-    damping: Number = 0.0
-    preload: Number = 0.0
+    stiffness: Scalar = 0.0
+    damping: Scalar = 0.0
+    preload: Scalar = 0.0
 
     def __post_init__(self) -> None:
         element = f"motion {self.name}"

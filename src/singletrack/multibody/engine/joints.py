@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from singletrack.errors import ModelError
 from singletrack.multibody.engine.checks import check_axis, check_number
-from singletrack.multibody.engine.elements import Joint, Motion, Number, Vector, X, Y, Z
+from singletrack.multibody.engine.elements import Joint, Motion, Scalar, Vector, X, Y, Z
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -35,7 +35,7 @@ def _joint(
     if len(names) != count:
         raise ModelError(f"{element}: {count} coordinates need {count} names, found {names}")
 
-    def spread(quantity: str, value: Any) -> list[Number]:
+    def spread(quantity: str, value: Any) -> list[Scalar]:
         values = list(value) if isinstance(value, (tuple, list)) else [value] * count
         if len(values) != count:
             raise ModelError(f"{element}: {quantity} must be one number or {count}, found {len(values)}")

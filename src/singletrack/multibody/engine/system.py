@@ -11,7 +11,7 @@ from singletrack.errors import ModelError, unknown_name
 from singletrack.multibody.engine.checks import check_axis, check_number, is_number
 from singletrack.multibody.engine.closures import Closure, Ratio
 from singletrack.multibody.engine.connections import CoordinateForce, Force, Sensor, Spring, Torque, Wheel
-from singletrack.multibody.engine.elements import GROUND, Body, Joint, Number, Vector
+from singletrack.multibody.engine.elements import GROUND, Body, Joint, Scalar, Vector
 from singletrack.multibody.engine.limits import Limit, Reach
 
 if TYPE_CHECKING:
@@ -66,7 +66,7 @@ class System:
     springs: Sequence[Spring] = ()
     inputs: Sequence[Input] = ()
     sensors: Sequence[Sensor] = ()
-    gravity: Number = 9.81
+    gravity: Scalar = 9.81
     down: Vector = (0.0, 0.0, 1.0)
     independent: tuple[str, ...] | None = None
     limits: Sequence[Limit | Reach] = ()
