@@ -11,6 +11,7 @@ import os
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 from contextvars import ContextVar, copy_context
+from functools import lru_cache
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
@@ -99,10 +100,16 @@ def in_stretches(work: Callable[[slice], None], count: int, length: int) -> None
         with single_thread():
             work(piece)
 
-    with ThreadPoolExecutor(workers) as pool:
-        # Each in a copy of our context: what the caller has set (errors of floating point, complex steps) holds there.
-        for done in [pool.submit(copy_context().run, alone, piece) for piece in pieces]:
-            done.result()
+    pool = _pool(os.getpid(), threads())
+    # Each in a copy of our context: what the caller has set (errors of floating point, complex steps) holds there.
+    for done in [pool.submit(copy_context().run, alone, piece) for piece in pieces]:
+        done.result()
+
+
+@lru_cache(maxsize=1)
+def _pool(_process: int, workers: int) -> ThreadPoolExecutor:
+    """Return the threads of this process (a forked one has none yet), which keep their memory from call to call."""
+    return ThreadPoolExecutor(workers, thread_name_prefix="singletrack")
 
 
 def part_of(value: Any, which: slice | np.ndarray, shape: tuple[int, ...]) -> Any:

@@ -80,6 +80,7 @@ def compiled_program(program: Program) -> Callable[[tuple[Number, ...], int], Ar
     """
     text, turns, rows = loop_text(program.name)
     words: dict[str, Any] = {
+        "__name__": __name__,  # where what is kept on disk belongs
         "sqrt": math.sqrt,
         "where": numba.njit(_where, forceinline=True, **_OPTIONS),
         "maximum": numba.njit(_maximum, forceinline=True, **_OPTIONS),

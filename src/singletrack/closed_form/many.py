@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from singletrack.arrays import Fault, stretches
+from singletrack.arrays.tape import WORDS, record
 from singletrack.closed_form.programs import MATRICES, program_of
 from singletrack.closed_form.round_tyres import on_round_tyres
 from singletrack.closed_form.single import NAMES
@@ -29,6 +30,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from singletrack.arrays import Array, Number
+    from singletrack.arrays.tape import Tape
     from singletrack.closed_form.programs import Program
     from singletrack.parameters import Bicycle, Rider
     from singletrack.posture import Options
@@ -37,6 +39,8 @@ __all__ = ["many_designs", "use_compiled"]
 
 #: Designs whose thousand scalars stay in the processor's cache together.
 _BLOCK = 1536
+#: Designs after which a program is recorded to be replayed.
+_WORTH_RECORDING = 20_000
 #: Designs after which a program is compiled, where numba is installed: by then it pays.
 _WORTH_COMPILING = 3_000_000
 #: The meaning of a program's words for arrays.
@@ -127,9 +131,12 @@ def _run(program: Program, values: tuple[Number, ...]) -> Array:
     if compiled is not None:
         result: Array = compiled(values, count)
         return result
-    function, found = _function(program), None
-    for block in stretches(count, _BLOCK):
-        entries = function(*(value[block] if isinstance(value, np.ndarray) else value for value in values))
+    varied = sum(isinstance(value, np.ndarray) for value in values)
+    # What does not vary is computed once, without a tape.
+    taped = computed > _WORTH_RECORDING and 2 * varied > len(values)
+    function, found = _tape(program).run if taped else _function(program), None
+    for block in stretches(count, count if taped else _BLOCK):
+        entries = function(*(value[block] if isinstance(value, np.ndarray) else np.float64(value) for value in values))
         if found is None:
             found = np.empty((len(entries), count))
         for row, entry in zip(found, entries, strict=True):
@@ -141,6 +148,11 @@ def _run(program: Program, values: tuple[Number, ...]) -> Array:
 @cache
 def _function(program: Program) -> Callable[..., tuple[Number, ...]]:
     return program.function(_OF_ARRAYS)
+
+
+@cache
+def _tape(program: Program) -> Tape:
+    return record(program.function(WORDS), len(program.of_bicycle) + len(program.of_rider))
 
 
 @cache

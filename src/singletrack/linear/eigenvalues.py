@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from singletrack.arrays import as_arrays, in_stretches, is_jax, namespace
+from singletrack.arrays import as_arrays, in_stretches, is_jax, namespace, stretches
 from singletrack.errors import InputError
 from singletrack.linear.characteristic import characteristic_polynomial
 from singletrack.linear.pencil import pencil
-from singletrack.linear.quartic.solve import CHUNK, quartic_roots, solve_into
+from singletrack.linear.quartic.solve import CHUNK, quartic_roots, solve_at_speeds
 
 if TYPE_CHECKING:
     from singletrack.arrays import Array, ArrayLike
@@ -21,6 +21,8 @@ if TYPE_CHECKING:
 _FASTEST = 299_792_458.0
 #: Eigenvalue problems given to LAPACK at a time.
 _PROBLEMS = 4096
+#: Designs whose characteristic polynomials are made at a time, at least.
+_DESIGNS = 256
 
 __all__ = ["checked_speeds", "eigenmotions", "eigenvalues"]
 
@@ -90,7 +92,8 @@ def eigenvalues(model: LinearModel, speeds: ArrayLike) -> Array:
             else:
                 roots[piece] = quartic_roots(*monic_quartic(some.M, *at_speeds(some, v)))
 
-    in_stretches(work, count, max(1, (_PROBLEMS if model.freedoms > 2 else CHUNK) // max(len(v), 1)))
+    least, problems = (1, _PROBLEMS) if model.freedoms > 2 else (_DESIGNS, CHUNK)
+    in_stretches(work, count, max(least, problems // max(len(v), 1)))
     if model.faults:
         roots[~model.valid.ravel()] = np.nan
     return roots.reshape(*batch, *roots.shape[1:])
@@ -129,15 +132,14 @@ def _one_axis(speeds: ArrayLike) -> Array:
 
 def _roots_at(polynomials: CharacteristicPolynomial, v: np.ndarray, roots: np.ndarray) -> None:
     """Write the roots (m, k, 4) of m polynomials at speeds (k,)."""
+    ratios = polynomials.ratios()
+    for rows in stretches(len(roots), max(1, CHUNK // max(len(v), 1))):
+        some, own = ratios[:, rows], roots[rows]
 
-    def work(piece: slice) -> None:
-        quartics = [np.broadcast_to(a, roots[:, piece].shape[:-1]) for a in polynomials.monic_at(v[piece])]
-        if roots[:, piece].flags.c_contiguous:
-            solve_into(roots[:, piece].reshape(-1, 4), *(a.ravel() for a in quartics))
-        else:
-            roots[:, piece] = quartic_roots(*quartics)
+        def work(piece: slice, some: np.ndarray = some, own: np.ndarray = own) -> None:
+            solve_at_speeds(own[:, piece], some, v[piece])
 
-    in_stretches(work, len(v), max(1, CHUNK // max(len(roots), 1)))
+        in_stretches(work, len(v), max(1, CHUNK // max(len(own), 1)))
 
 
 def at_speeds(model: LinearModel, v: Array) -> tuple[Array, Array]:
