@@ -11,7 +11,9 @@ from singletrack.version import __version__
 
 HERE = Path(__file__).parent
 sys.path.insert(0, str(HERE / "_ext"))
-os.environ["OMP_NUM_THREADS"] = "1"  # the notebooks' kernels too: small matrices, many pages
+# For the notebooks, too: the program on their path, and no threads for small matrices.
+os.environ["PATH"] = os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])
+os.environ["OMP_NUM_THREADS"] = "1"
 
 project = "singletrack"
 author = "the singletrack developers"
@@ -34,8 +36,9 @@ exclude_patterns = [
     "_ext",
     "gallery",
     "**/.ipynb_checkpoints",
-    "auto_gallery/**/*.ipynb",
-    "auto_gallery/**/*.md5",
+    "auto_gallery/*.ipynb",
+    "sg_execution_times.rst",
+    "auto_gallery/sg_execution_times.rst",
 ]
 highlight_language = "none"
 # Every function, method, module and constant that is named exists. Words of types ("sequence of str") are not names.
@@ -51,9 +54,12 @@ myst_enable_extensions = ["amsmath", "attrs_block", "attrs_inline", "colon_fence
 myst_heading_anchors = 4
 nb_execution_mode = "cache"  # a page is executed again when its code has changed
 nb_execution_cache_path = str(HERE / "_build" / "executed")
-nb_execution_raise_on_error = True
+nb_execution_in_temp = True
+nb_execution_show_tb = True  # a cell that fails is a warning, and warnings are errors
 nb_execution_timeout = 120
 nb_merge_streams = True
+
+copybutton_prompt_text = "!"  # of commands in notebooks
 
 # Programs and their documentation.
 autodoc_member_order = "bysource"

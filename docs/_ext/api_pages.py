@@ -40,6 +40,9 @@ ROOMS = (
     "errors",
 )
 
+#: Rooms whose modules are told, too: what the names of the room itself return is made there.
+OPEN = ("public",)
+
 
 def pages() -> dict[str, str]:
     """Return the text of each page by its file's name."""
@@ -75,9 +78,8 @@ def _page(room: str, told: dict[int, str]) -> str:
     module = importlib.import_module(f"singletrack.{room}")
     title = f"singletrack.{room}"
     lines = [title, "=" * len(title), "", f".. automodule:: {title}", "   :no-members:", ""]
-    if hasattr(module, "__all__"):
-        return "\n".join([*lines, *_members(module, told)])
-    for part in _modules(module):
+    lines += _members(module, told) if hasattr(module, "__all__") else []
+    for part in _modules(module) if room in OPEN or not hasattr(module, "__all__") else ():
         members = list(_members(part, told))
         if members:
             lines += [part.__name__, "-" * len(part.__name__), "", f".. automodule:: {part.__name__}"]

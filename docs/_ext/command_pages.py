@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import enum
-import re
 from typing import Any
+
+from tables import escaped, table
 
 from singletrack.commands.app import EXIT_CODES
 from singletrack.commands.door import COMMANDS, command
@@ -14,9 +15,9 @@ def pages() -> dict[str, str]:
     """Return the text of the page by its file's name."""
     lines = ["# Commands", "", "`singletrack COMMAND --help` prints the same in a terminal.", ""]
     for name, text in COMMANDS.items():
-        lines += [f"(command-{name})=", f"## singletrack {name}", "", _escaped(text), "", *_usage(name), ""]
-    lines += ["## Exit codes", "", "| code | says |", "| --- | --- |"]
-    lines += [f"| {code} | {_escaped(text)} |" for code, text in EXIT_CODES.items()]
+        lines += [f"(command-{name})=", f"## singletrack {name}", "", escaped(text), "", *_usage(name), ""]
+    lines += ["## Exit codes", ""]
+    lines += table(["code", "says"], [[str(code), text] for code, text in EXIT_CODES.items()])
     return {"commands.md": "\n".join([*lines, ""])}
 
 
@@ -28,8 +29,8 @@ def _usage(name: str) -> list[str]:
     lines = ["```text", " ".join(["singletrack", name, *words, *["[options]"] * bool(options)]), "```", ""]
     if not parameters:
         return lines
-    rows = [f"| {_name(p)} | {_escaped(p.help or '')} | {_default(p)} |" for p in [*arguments, *options]]
-    return [*lines, "| argument | says | default |", "| --- | --- | --- |", *rows]
+    rows = [[_name(p), p.help or "", _default(p)] for p in [*arguments, *options]]
+    return [*lines, *table(["argument", "says", "default"], rows, raw={0, 2})]
 
 
 def _metavar(parameter: Any) -> str:
@@ -59,8 +60,3 @@ def _default(parameter: Any) -> str:
     if isinstance(value, enum.Enum):
         value = value.value
     return "" if value is None or value is False or value == [] or callable(value) else f"`{value}`"
-
-
-def _escaped(text: str) -> str:
-    """Return plain text as Markdown that shows it as it is."""
-    return re.sub(r"([\\`*_|<>\[\]#$])", r"\\\1", " ".join(text.split()))

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 import api_pages
 import command_pages
+import proof_pages
 import schema_pages
 
 if TYPE_CHECKING:
@@ -21,7 +22,10 @@ FOLDER = "generated"  # ignored by git; beside the section it belongs to
 def write(app: Sphinx) -> None:
     """Write all generated pages, and remove those of an earlier build that are generated no more."""
     source = Path(app.srcdir)
-    sections = {"reference": {**api_pages.pages(), **command_pages.pages(), **schema_pages.pages()}}
+    sections = {
+        "reference": {**api_pages.pages(), **command_pages.pages(), **schema_pages.pages()},
+        "proof": proof_pages.pages(),
+    }
     for section, pages in sections.items():
         folder = source / section / FOLDER
         folder.mkdir(parents=True, exist_ok=True)

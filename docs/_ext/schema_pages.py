@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import json
 
+from tables import table
+
 from singletrack.library.schema import schema
 from singletrack.parameters import Bicycle, Rider
 
@@ -20,15 +22,12 @@ def pages() -> dict[str, str]:
         "",
     ]
     for kind, record in KINDS.items():
-        lines += [
-            f"## Parameters of a {kind}",
-            "",
-            "| name | symbol | unit | meaning | |",
-            "| --- | --- | --- | --- | --- |",
+        rows = [
+            [f"`{name}`", one.symbol, one.unit or "", one.meaning, "optional" if one.optional else "required"]
+            for name, one in record.descriptions().items()
         ]
-        for name, one in record.descriptions().items():
-            needed = "optional" if one.optional else "required"
-            lines.append(f"| `{name}` | {one.symbol} | {one.unit or ''} | {one.meaning} | {needed} |")
+        lines += [f"## Parameters of a {kind}", ""]
+        lines += table(["name", "symbol", "unit", "meaning", ""], rows, raw={0})
         text = json.dumps(schema(kind), indent=2, ensure_ascii=False)
         lines += ["", f":::{{dropdown}} JSON schema of a {kind}", "```json", text, "```", ":::", ""]
     return {"schemas.md": "\n".join(lines)}

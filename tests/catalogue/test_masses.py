@@ -223,6 +223,14 @@ def test_what_is_wrong_with_masses_is_told(entries, text):
         catalogue.bicycle(**BASE, **entries)
 
 
+def test_a_load_weighs_what_is_told():
+    """Whatever the rest weighs: a battery on the scale is not light because the bicycle is."""
+    battery = {"name": "battery", "mass": "2.8 kg", "x": "0.1 m", "z": "-0.75 m"}
+    for total in ("16 kg", "24 kg"):
+        made = catalogue.estimate(200, **BASE, total_mass=total, loads=[battery])
+        assert made.masses["rear frame: battery"] == pytest.approx((2.8, 0.0), abs=1e-4)
+
+
 def test_an_odd_mass_is_said():
     with pytest.warns(OddityWarning, match="rear_frame_mass = 12.000 kg is odd"):
         catalogue.bicycle(**BASE, rear_frame_mass="12 kg")

@@ -18,7 +18,7 @@ from typing import Any
 
 import pytest
 from forks import first_failing, forked, limit
-from warm import covering, tests_of_lines
+from warm import covering, quickest, tests_of_lines
 
 LIBRARIES = (
     "casadi control hypothesis jinja2 matplotlib.figure mpmath numpy pint pydantic rich.console scipy.integrate "
@@ -48,9 +48,9 @@ def main(folder: Path, arguments: list[str]) -> None:
         warnings.simplefilter("ignore")
         for name in LIBRARIES.split():
             importlib.import_module(name)
-    lines = tests_of_lines(folder / "coverage")
+    lines = tests_of_lines()
     seconds = json.loads((folder / "seconds.json").read_text())
-    failing = set(json.loads((folder / "failing.json").read_text()))
+    left_out = set(json.loads((folder / "left_out.json").read_text()))
     mutants = json.loads((folder / "mutants.json").read_text())
     sound: dict[str, bool] = {}  # tests that pass by themselves where nothing is changed
     left = [json.loads(line) for line in (folder / "warm.jsonl").read_text().splitlines()]
@@ -59,7 +59,7 @@ def main(folder: Path, arguments: list[str]) -> None:
             if one["state"] not in {"open", "imported"}:
                 continue
             mutant = mutants[one["number"]]
-            names = sorted(covering(lines, mutant) - failing, key=lambda name: seconds.get(name, 1.0))
+            names = quickest(covering(lines, mutant) - left_out, seconds)
             started = time.perf_counter()
             result = judge(mutant, names, seconds, arguments)
             killer = result["killed"]

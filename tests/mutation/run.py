@@ -5,7 +5,8 @@ Run by `make mutants` with the tools' Python:
 `.mutants/PACKAGE`:
 
 1. mutants of the package, N of them drawn by the seed (0: all), made by cosmic-ray's operators (`mutants.py`);
-2. which tests run which lines, recorded once by coverage's contexts, for as long as sources and tests stay the same;
+2. which tests run which lines, recorded once by coverage's contexts, for as long as sources and tests stay the same
+   (or read from `--coverage FILE...`, as of a whole run with `--cov-context=test`);
 3. mutants within functions, in forks of a process that has everything imported and collected (`warm.py`);
 4. what survived or changes what is done on import, in forks that import everything anew (`cold.py`).
 
@@ -48,6 +49,7 @@ def main() -> None:
     parser.add_argument("--sample", type=int, default=0)
     parser.add_argument("--seed", type=int, default=20261124)
     parser.add_argument("--module", default="", help="only files whose path has this in it")
+    parser.add_argument("--coverage", nargs="*", default=[], help="records with contexts that were made before")
     parser.add_argument("--again", action="store_true", help="only the survivors of the last run")
     parser.add_argument("packages", nargs="+", choices=sorted(TESTS))
     options = parser.parse_args()
@@ -76,7 +78,10 @@ def judge(package: str, options: argparse.Namespace) -> str:
     (folder / "mutants.json").write_text(json.dumps([mutant(copy, place) for place in wanted]))
     shutil.rmtree(folder / "numba", ignore_errors=True)
     python = Python(options.python, copy, folder)
-    record(python, package, folder)
+    if options.coverage:
+        python.environment["RECORDS"] = os.pathsep.join(str(Path(name).resolve()) for name in options.coverage)
+    else:
+        record(python, package, folder)
     python("-m", "pytest", *QUIET, "-s", "-p", "warm", *TESTS[package].split())
     python(str(HERE / "cold.py"), str(folder))
     text = table(package, folder, len(every), options.seed)
@@ -91,8 +96,9 @@ class Python:
         self.python, self.copy = python, copy
         kept = {name: os.environ[name] for name in ("PATH", "HOME") if name in os.environ}
         threads = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"), "1")
-        paths = {"PYTHONPATH": f"{copy / 'src'}{os.pathsep}{HERE}", "MUTANTS": str(folder)}
-        self.environment = {**kept, **threads, **paths, "NUMBA_CACHE_DIR": str(folder / "numba")}
+        names = {"MUTANTS": str(folder), "PACKAGE": folder.name, "RECORDS": str(folder / "coverage")}
+        paths = {"PYTHONPATH": f"{copy / 'src'}{os.pathsep}{HERE}"}
+        self.environment = {**kept, **threads, **paths, **names, "NUMBA_CACHE_DIR": str(folder / "numba")}
 
     def __call__(self, *arguments: str) -> None:
         done = subprocess.run(

@@ -29,6 +29,10 @@ if TYPE_CHECKING:
 ROOT = Path.cwd()
 #: Hypothesis without a memory, few examples, and no search for a smaller one: a mutant is dead at the first.
 EXAMPLES = 15
+#: Seconds beyond which a test takes no part.
+LONGEST = 5.0
+#: Seconds beyond which no further test is run for a mutant: those that come by are many, and the last tell nothing new.
+TOGETHER = 12.0
 PHASES = (hypothesis.Phase.explicit, hypothesis.Phase.generate)
 
 
@@ -37,25 +41,25 @@ def pytest_runtestloop(session: pytest.Session) -> bool:
     items = {item.nodeid: item for item in session.items}
     for item in session.items:
         _hurry(item)
-    lines = tests_of_lines(folder / "coverage")
+    lines = tests_of_lines()
     touching = {test for by_line in lines.values() for tests in by_line.values() for test in tests}
     seconds = forked(lambda: _times([item for name, item in items.items() if name in touching]))
-    failing = [name for name, value in seconds.items() if value < 0]
+    left_out = [name for name, value in seconds.items() if value < 0 or value > LONGEST]
     (folder / "seconds.json").write_text(json.dumps(seconds))
-    (folder / "failing.json").write_text(json.dumps(failing))
+    (folder / "left_out.json").write_text(json.dumps(left_out))
     living = _living()
     sound: dict[str, bool] = {}  # tests that pass by themselves, in a fork, where nothing is changed
     gc.freeze()
     with (folder / "warm.jsonl").open("w") as results:
         for number, mutant in enumerate(json.loads((folder / "mutants.json").read_text())):
-            chosen = sorted(covering(lines, mutant) - set(failing), key=lambda name: seconds.get(name, 0.0))
+            chosen = quickest(covering(lines, mutant) - set(left_out), seconds)
             started = time.perf_counter()
             result = _judge(mutant, [items[name] for name in chosen if name in items], living, seconds)
             killer = result.get("killed", "")
             if killer in items and killer not in sound:
                 sound[killer] = forked(lambda name=killer: first_failing([items[name]], seconds))["killed"] == ""
             if not sound.get(killer, True):
-                failing.append(killer)
+                left_out.append(killer)
                 result |= {"state": "open", "killed": ""}
             result |= {"number": number, "took": time.perf_counter() - started}
             results.write(json.dumps(result) + "\n")
@@ -63,15 +67,17 @@ def pytest_runtestloop(session: pytest.Session) -> bool:
     return True
 
 
-def tests_of_lines(data: Path) -> dict[str, dict[int, set[str]]]:
-    """Return, for each file and line, the tests that run it."""
-    record = coverage.CoverageData(str(data))
-    record.read()
-    found: dict[str, dict[int, set[str]]] = {}
-    for file in record.measured_files():
-        name = str(Path(file).relative_to(ROOT)) if file.startswith(str(ROOT)) else file
-        by_line = record.contexts_by_lineno(file).items()
-        found[name] = {line: {test.rpartition("|")[0] for test in tests if test} for line, tests in by_line}
+def tests_of_lines() -> dict[str, dict[int, set[str]]]:
+    """Return, for each file of the package and line, the tests that run it."""
+    found: dict[str, dict[int, set[str]]] = defaultdict(lambda: defaultdict(set))
+    for data in os.environ["RECORDS"].split(os.pathsep):
+        record = coverage.CoverageData(data)
+        record.read()
+        for file in record.measured_files():
+            name = f"src/{file.rpartition('/src/')[2]}"
+            if f"/singletrack/{os.environ['PACKAGE']}/" in name:
+                for line, tests in record.contexts_by_lineno(file).items():
+                    found[name][line] |= {test.rpartition("|")[0] for test in tests if test}
     return found
 
 
@@ -85,6 +91,13 @@ def covering(lines: dict[str, dict[int, set[str]]], mutant: dict[str, Any]) -> s
     _, outer = changed_functions(mutant)
     around = {line for code in outer for _, _, line in code.co_lines() if line}
     return set().union(*(by_line.get(line, set()) for line in around or by_line))
+
+
+def quickest(tests: set[str], seconds: dict[str, float]) -> list[str]:
+    """Return tests in the order of what they take, as far as there is time for them."""
+    ordered = sorted(tests, key=lambda name: (seconds.get(name, 1.0), name))
+    spent = [sum(seconds.get(name, 1.0) for name in ordered[:count]) for count in range(len(ordered))]
+    return [name for name, before in zip(ordered, spent, strict=True) if before < TOGETHER]
 
 
 def changed_functions(mutant: dict[str, Any]) -> tuple[list[tuple[CodeType, CodeType]], list[CodeType]]:

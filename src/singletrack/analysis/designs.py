@@ -80,6 +80,12 @@ class Design:
             known |= {name: p.unit for name, p in self.rider.descriptions().items()}
         return {name: known.get(name) or _unit_of_posture(name) for name in self.values()}
 
+    def deviations(self) -> dict[str, float]:
+        """Return the standard deviations of :meth:`values`, in SI, where there are."""
+        found = dict(self.bicycle.standard_deviations)
+        found |= {} if self.rider is None else self.rider.standard_deviations
+        return {name: float(deviation) for name, deviation in found.items()}
+
     def unit(self, name: str) -> str:
         """Return the SI unit of one parameter.
 

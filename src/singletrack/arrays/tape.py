@@ -11,6 +11,7 @@ from __future__ import annotations
 import math
 import threading
 from dataclasses import dataclass, field
+from functools import partial
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
@@ -175,6 +176,8 @@ def _calls(step: tuple[str, int, tuple[int | float, ...]], registers: list[Array
     """Return what a step calls, and with which arrays."""
     name, target, operands = step
     given = [registers[one] if isinstance(one, int) else one for one in operands]
+    if name == "maximum":  # NumPy takes no third argument here
+        return [(partial(np.maximum, out=registers[target]), tuple(given))]
     if name != "where":
         return [(_WORK[name], (*given, registers[target]))]
     condition, yes, no = given

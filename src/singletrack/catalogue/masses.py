@@ -31,8 +31,8 @@ class Prior:
     ----------
     names : tuple of str
     mean, own, common : array, shape (c,)
-        Mean, own standard deviation, and the one shared with the components of the same part, in kg; all share
-        :data:`GRADE` besides.
+        Mean, own standard deviation, and the one shared with the components of the same part, in kg; all but loads
+        share :data:`GRADE` besides.
     parts : tuple of str
         Which components share the common one.
     choices, kinds : tuple of str
@@ -40,6 +40,8 @@ class Prior:
     probability : array, shape (c,)
     fitted : array, shape (c,), optional
         Of a component of a choice: probability that it is there where its kind is.
+    told : array of bool, shape (c,), optional
+        Loads, whose masses are told: they share no grade.
     """
 
     names: tuple[str, ...]
@@ -51,13 +53,14 @@ class Prior:
     kinds: tuple[str, ...]
     probability: np.ndarray
     fitted: np.ndarray | None = None
+    told: np.ndarray | None = None
 
     def covariance(self) -> np.ndarray:
         """Return the covariance of the masses, were all there, shape (c, c), in kg^2."""
         same = np.array([[a == b != "" for b in self.parts] for a in self.parts])
         shared = same * np.outer(self.common, self.common)
         alone = self.own**2 + np.where(np.diag(same), 0.0, self.common**2)
-        grade = GRADE * self.mean
+        grade = GRADE * (self.mean if self.told is None else np.where(self.told, 0.0, self.mean))
         covariance: np.ndarray = shared + np.diag(alone) + np.outer(grade, grade)
         return covariance
 

@@ -136,8 +136,8 @@ def bars() -> dict[str, dict[str, tuple[float, float]]]:
 def components() -> tuple[Component, ...]:
     """Return all components, those of a wheel once for either.
 
-    >>> [component.name for component in components() if component.assembly == "rear wheel"][:4]
-    ['tyre', 'tube', 'rim', 'spokes']
+    >>> [component.name for component in components() if component.assembly == "rear wheel"][:5]
+    ['tyre', 'tube', 'rim', 'steel rim', 'spokes']
     """
     found = []
     for row in _table("components.toml")["component"]:

@@ -15,7 +15,7 @@ from singletrack.closed_form.many import many_designs
 from singletrack.closed_form.round_tyres import load_of_rider, on_round_tyres
 from singletrack.closed_form.single import single_design
 from singletrack.closed_form.slaved import slaved_matrices
-from singletrack.closed_form.whipple import whipple_matrices
+from singletrack.closed_form.whipple import Matrices, whipple_matrices
 from singletrack.model import COORDINATES, INPUTS, LinearModel
 from singletrack.model.definite import indefinite
 from singletrack.parameters.flexible import soft_hinges
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from singletrack.parameters import Bicycle, Rider
     from singletrack.posture import Posture
 
-__all__ = ["by_arrays", "coefficients"]
+__all__ = ["by_arrays", "coefficients", "seated_model"]
 
 
 def coefficients(bicycle: Bicycle, rider: Rider | None = None, options: Options | str = "rigid") -> LinearModel:
@@ -92,15 +92,41 @@ def by_arrays(bicycle: Bicycle, rider: Rider | None, options: Options) -> Linear
         model = LinearModel(*bare, bicycle.gravity, faults=bicycle.standing_faults, C0=laws[0], S0=laws[1])
         return _checked(on_round_tyres(_softened(model, bicycle, None), bicycle, None), bicycle.name)
     posture = seat(bicycle, rider, options)
-    bodies = slaved_mass(posture, bicycle)
+    model = seated_model(bicycle, posture, bare, options)
+    faults = bicycle.standing_faults + rider.standing_faults + model.faults
+    return _checked(dataclasses.replace(model, faults=faults), bicycle.name)
+
+
+def seated_model(
+    bicycle: Bicycle,
+    posture: Posture,
+    bare: Matrices | None = None,
+    options: Options | None = None,
+    *,
+    massless: bool = False,
+) -> LinearModel:
+    """Return the equations with a seated rider, whatever the mass matrix; faults are those of the posture.
+
+    Parameters
+    ----------
+    bicycle : Bicycle
+    posture : Posture
+    bare : Matrices, optional
+        Of the bicycle alone, where they are known already.
+    options : Options, optional
+        Whose spring and damper at the steer there are.
+    massless : bool
+        Let free joints move no mass.
+    """
+    bare = whipple_matrices(bicycle) if bare is None else bare
+    bodies = slaved_mass(posture, bicycle, massless=massless)
     added = slaved_matrices(bodies, bicycle)
-    faults = bicycle.standing_faults + rider.standing_faults + bodies.faults
     more = len(bodies.freedoms)
     M, C1, K0, K2 = (_padded(one, more) + other for one, other in zip(bare, added, strict=True))
     of_joints = (bodies.damping, bodies.stiffness)
     C0, S0 = (
         _both(None if own is None else _bordered(own), steer)
-        for own, steer in zip(of_joints, _steer_laws(options, 1 + more), strict=True)
+        for own, steer in zip(of_joints, _steer_laws(options or Options(), 1 + more), strict=True)
     )
     model = LinearModel(
         M,
@@ -108,13 +134,13 @@ def by_arrays(bicycle: Bicycle, rider: Rider | None, options: Options) -> Linear
         K0,
         K2,
         bicycle.gravity,
-        faults=faults,
+        faults=bodies.faults,
         C0=C0,
         S0=S0,
         coordinates=(*COORDINATES, *bodies.freedoms),
         inputs=(*INPUTS, *map(input_name, bodies.freedoms)),
     )
-    return _checked(on_round_tyres(_softened(model, bicycle, posture), bicycle, load_of_rider(posture)), bicycle.name)
+    return on_round_tyres(_softened(model, bicycle, posture), bicycle, load_of_rider(posture))
 
 
 def _softened(model: LinearModel, bicycle: Bicycle, posture: Posture | None) -> LinearModel:

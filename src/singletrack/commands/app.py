@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib
+import logging
 import os
 import signal
 import sys
@@ -47,6 +48,8 @@ def main() -> None:
 
 
 def _run() -> int:
+    # Where it keeps its fonts, or that it cannot keep them without a home folder, is nothing that a user asked for.
+    logging.getLogger("matplotlib").setLevel(logging.ERROR)
     # The door of all commands, opened within the guard: an interruption while libraries load ends in one sentence too.
     return int(importlib.import_module("singletrack.commands.door").run(sys.argv[1:]))
 

@@ -10,8 +10,9 @@ from math import degrees, isfinite
 from singletrack.body.fit import elbow_angle, fit
 from singletrack.body.oddities import warn_of_oddities
 from singletrack.commands.model_options import ModelOptions, pairs
+from singletrack.commands.sheets import bicycle_named
 from singletrack.errors import InputError, OddityWarning
-from singletrack.library import load_bicycle, load_rider
+from singletrack.library import load_rider
 from singletrack.library.load import override
 from singletrack.model import LinearModel
 from singletrack.parameters import Bicycle, Rider
@@ -19,6 +20,7 @@ from singletrack.parameters.bicycle import FRAME_GEOMETRY
 from singletrack.parameters.hints import unknown_parameter
 from singletrack.parameters.units import parse_quantity
 from singletrack.public import CoefficientMatrices
+from singletrack.public.origin import Origin
 
 __all__ = ["Made", "answer_words", "model_from", "seated"]
 
@@ -47,9 +49,10 @@ def model_from(bicycle: str, options: ModelOptions) -> Made:
     SingletrackError
         If there is no such thing, or a value is not allowed.
     """
-    record, rider, changed = seated(load_bicycle(bicycle), options)
+    record, rider, changed = seated(bicycle_named(bicycle), options)
     maker = importlib.import_module(f"singletrack.{options.engine.name}")  # a door: the engine's libraries are heavy
-    model = CoefficientMatrices.of(_answered(maker.coefficients(record, rider, options.sitting), options))
+    origin = None if rider is None else Origin(record, rider, options.sitting)
+    model = CoefficientMatrices.of(_answered(maker.coefficients(record, rider, options.sitting), options), origin)
     rider = None if rider is None else rider.on(record)
     warn_of_oddities(record, rider)
     who = "" if rider is None else f" with {rider.name or 'rider'}, {options.sitting.title}"

@@ -14,11 +14,11 @@ from singletrack.commands.model import answer_words, seated
 from singletrack.commands.model_options import ModelOptions
 from singletrack.commands.options import BicycleArgument, JsonOption
 from singletrack.commands.printing import deliver, print_json, show
+from singletrack.commands.sheets import bicycle_named
 from singletrack.commands.turn import number_of
 from singletrack.errors import InputError
 from singletrack.files.signals import read_signal
 from singletrack.files.source import read_text
-from singletrack.library import load_bicycle
 from singletrack.output import check_writable
 from singletrack.present.riding import animation_bytes, ride_figure
 from singletrack.present.tables import write_csv
@@ -58,7 +58,7 @@ def run(
 ) -> None:
     """Ride a bicycle, nonlinear, and say how it ended."""
     _check_files(output, plot, animate)
-    record, rider, changed = seated(load_bicycle(bicycle), options)
+    record, rider, changed = seated(bicycle_named(bicycle), options)
     warn_of_oddities(record, rider)
     v, until = number_of("--speed", speed, "m/s"), number_of("--for", duration, "s")
     given: Any = {

@@ -14,8 +14,8 @@ from singletrack.commands.model import seated
 from singletrack.commands.model_options import ModelOptions
 from singletrack.commands.options import BicycleArgument, JsonOption
 from singletrack.commands.printing import deliver, print_json, show
+from singletrack.commands.sheets import bicycle_named
 from singletrack.errors import InputError
-from singletrack.library import load_bicycle
 from singletrack.parameters.units import parse_quantity
 from singletrack.present.turning import turn_figure, turn_text
 from singletrack.public import warn_of_oddities
@@ -45,7 +45,7 @@ def run(
         raise InputError("turn: found neither or both of --lean and --radius, must be one of them")
     if options.answer is not None:
         raise InputError("--feedback, --gains: a turn is held by constant torques; `singletrack ride` takes feedback")
-    record, rider, changed = seated(load_bicycle(bicycle), options)
+    record, rider, changed = seated(bicycle_named(bicycle), options)
     warn_of_oddities(record, rider)
     v = number_of("--speed", speed, "m/s")
     found = turn(

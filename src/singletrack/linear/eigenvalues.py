@@ -79,24 +79,33 @@ def eigenvalues(model: LinearModel, speeds: ArrayLike) -> Array:
         return _jax_eigenvalues(model, _one_axis(speeds))
     v, batch = checked_speeds(speeds), model.shape
     count, undamped = math.prod(batch), model.is_undamped
+    valid = np.broadcast_to(model.valid, batch).ravel()
     roots = np.empty((count, len(v), 2 * model.freedoms), dtype=complex)
 
     def work(piece: slice) -> None:
-        some = model.part(piece)
+        some, own = model.part(piece), roots[piece]
         if model.freedoms > 2:
-            roots[piece] = _by_lapack(some, v)
+            own[:] = _by_lapack(some, v)
             return
         with np.errstate(all="ignore"):  # numbers out of range give NaN
             if undamped:
-                _roots_at(characteristic_polynomial(some).flat()[0], v, roots[piece])
+                _roots_at(characteristic_polynomial(some).flat()[0], v, own)
             else:
-                roots[piece] = quartic_roots(*monic_quartic(some.M, *at_speeds(some, v)))
+                own[:] = quartic_roots(*monic_quartic(some.M, *at_speeds(some, v)))
+        lost = np.isnan(own[..., 0].real)
+        if lost.any() and (lost := lost & valid[piece, None]).any():
+            _told_otherwise(some, v, own, lost)
 
     least, problems = (1, _PROBLEMS) if model.freedoms > 2 else (_DESIGNS, CHUNK)
     in_stretches(work, count, max(least, problems // max(len(v), 1)))
-    if model.faults:
-        roots[~model.valid.ravel()] = np.nan
+    roots[~valid] = np.nan
     return roots.reshape(*batch, *roots.shape[1:])
+
+
+def _told_otherwise(model: LinearModel, v: np.ndarray, roots: np.ndarray, lost: np.ndarray) -> None:
+    """Write the roots (m, k, 4) that are lost, whose quartic was out of range, as found in other units."""
+    designs = lost.any(axis=-1)
+    roots[designs] = np.where(lost[designs][..., None], _by_lapack(model[designs], v), roots[designs])
 
 
 def _jax_eigenvalues(model: LinearModel, v: Array) -> Array:

@@ -24,11 +24,13 @@ if TYPE_CHECKING:
 
     import xarray
 
-__all__ = ["COORDINATES", "INPUTS", "UNITS", "LinearModel", "concatenate"]
+__all__ = ["COORDINATES", "GROUND_ACCELERATION", "INPUTS", "UNITS", "LinearModel", "concatenate"]
 
 #: The coordinates that every bicycle has, and the torques that do work on them.
 COORDINATES = ("lean", "steer")
 INPUTS = ("lean torque", "steer torque")
+#: The input of a ground that moves sideways, m/s² to the right.
+GROUND_ACCELERATION = "ground acceleration"
 
 #: Units of the matrices' entries, for angles in rad and torques in N m.
 UNITS = {"M": "kg m^2", "C0": "N m s", "C1": "kg m", "S0": "N m", "K0": "kg m", "K2": "kg", "B": ""}

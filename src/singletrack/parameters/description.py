@@ -42,6 +42,8 @@ BOUNDS: dict[str, tuple[float, float]] = {
     "kg": (1e-6, 1000.0),
     "kg*m**2": (0.0, 1e5),
     "m/s**2": (1e-6, 1000.0),
+    "N*m/rad": (1e-6, 1e12),
+    "N*m*s/rad": (0.0, 1e12),
 }
 #: The least and the largest double of each kind of allowed values.
 _ENDS = {

@@ -2,6 +2,7 @@
 
 from singletrack.posture.arguments import require_bicycle, require_posture, require_records
 from singletrack.posture.bodies import SlavedMass, slaved_mass
+from singletrack.posture.cut import CutLoops, cut_loops
 from singletrack.posture.margins import Margins, margins
 from singletrack.posture.mechanism import HANDLEBAR, Mechanism
 from singletrack.posture.options import ARMS, POSTURES, SHOULDERS, STEER, Options, input_name
@@ -16,7 +17,7 @@ from singletrack.posture.shipped import (
     mechanism_of,
     named_posture,
 )
-from singletrack.posture.steered import moved_skeleton, steered_skeleton
+from singletrack.posture.steered import lateral_work, moved_skeleton, steered_skeleton
 
 __all__ = [
     "ARMS",
@@ -25,6 +26,7 @@ __all__ = [
     "SHOULDERS",
     "STEER",
     "TORSO_LEAN",
+    "CutLoops",
     "Loop",
     "Margins",
     "Mechanism",
@@ -33,9 +35,11 @@ __all__ = [
     "SeatedJoint",
     "SlavedBodies",
     "SlavedMass",
+    "cut_loops",
     "file_of_posture",
     "input_name",
     "is_posture",
+    "lateral_work",
     "load_posture",
     "loop_residual",
     "margins",

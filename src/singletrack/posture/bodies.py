@@ -12,7 +12,7 @@ follows from it (docs/theory/closed-form.md, with X as in :mod:`singletrack.post
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -79,13 +79,15 @@ class SlavedMass:
     faults: tuple[Fault, ...] = ()
 
 
-def slaved_mass(posture: Posture, bicycle: Bicycle) -> SlavedMass:
+def slaved_mass(posture: Posture, bicycle: Bicycle, *, massless: bool = False) -> SlavedMass:
     """Return how the mass of a seated rider moves with the steer and the free joints.
 
     Parameters
     ----------
     posture : Posture
     bicycle : Bicycle
+    massless : bool
+        Let free joints move no mass.
 
     Raises
     ------
@@ -125,7 +127,7 @@ def slaved_mass(posture: Posture, bicycle: Bicycle) -> SlavedMass:
     lifted = turning[0] * momentum[1][:, None] - turning[1] * momentum[0][:, None] + momentum[2][:, None] * motion.bends
     inner = [value.reshape(shape) for value in inner]
     damping, stiffness = laws_of(posture, motion)
-    return SlavedMass(
+    mass = SlavedMass(
         **whole,
         spin_x=along(spin[0], rates),
         spin_z=along(spin[2], rates),
@@ -135,8 +137,12 @@ def slaved_mass(posture: Posture, bicycle: Bicycle) -> SlavedMass:
         freedoms=posture.freedoms,
         damping=damping,
         stiffness=stiffness,
-        faults=faults + motion.faults + _massless(posture, inner, whole["inertia_xx"] + whole["inertia_zz"]),
+        faults=faults + motion.faults,
     )
+    if massless:
+        return mass
+    light = _massless(posture, inner, whole["inertia_xx"] + whole["inertia_zz"])
+    return replace(mass, faults=mass.faults + light)
 
 
 def _batch(posture: Posture) -> tuple[int, ...]:

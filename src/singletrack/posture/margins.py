@@ -71,7 +71,7 @@ def margins(posture: Posture, bicycle: Bicycle, rider: Rider) -> Margins:
     condition: Number = one
     inertia: Number = one
     if posture.loops:
-        xp, loops, (spin, _) = loops_of(posture, bicycle, shape)
+        xp, _, loops, (spin, _) = loops_of(posture, bicycle, shape)
         condition = squared_condition(xp, posture, loops, spin).reshape(shape)
     if posture.freedoms:
         mass = slaved_mass(posture, bicycle)

@@ -14,6 +14,8 @@ from singletrack.errors import InputError, unknown_name
 
 __all__ = ["FRAME", "HANDLEBAR", "SEGMENTS", "Direction", "JointPlan", "LoopPlan", "Mechanism", "Place"]
 
+#: N m/rad, N m s/rad, N/m, N s/m: nothing that is ridden is stiffer by far; beyond, numbers overflow within.
+STIFFEST = 1e12
 #: What a joint or a loop may be fixed to beside other joints.
 FRAME, HANDLEBAR = "frame", "handlebar"
 _RESERVED = (FRAME, HANDLEBAR, "lean", "steer")

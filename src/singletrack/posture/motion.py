@@ -53,22 +53,22 @@ def rider_motion(posture: Posture, bicycle: Bicycle, shape: tuple[int, ...] | No
     >>> abs(motion.rates[:2, 0, 0]).round(3).tolist(), bool(abs(motion.bends[0, 0, 0]) > 0.01)
     ([0.0, 0.482], True)
     """
-    shape = posture.skeleton.points.shape[:-2] if shape is None else shape
-    xp, loops, joints = loops_of(posture, bicycle, shape)
+    xp, shape, loops, joints = loops_of(posture, bicycle, shape)
     return _solve(xp, posture, loops, joints, shape)
 
 
-def loops_of(posture: Posture, bicycle: Bicycle, shape: tuple[int, ...]) -> tuple[Any, Loops, tuple[Array, Array]]:
-    """Return the namespace, the loops in numbers, and the joints' spins and twists (3, n, N) about the rear contact.
+def loops_of(
+    posture: Posture, bicycle: Bicycle, shape: tuple[int, ...] | None = None
+) -> tuple[Any, tuple[int, ...], Loops, tuple[Array, Array]]:
+    """Return the namespace, the batch's shape, the loops, and the joints' twists w and v (3, n, N).
 
     Parameters
     ----------
-    posture : Posture
-    bicycle : Bicycle
-    shape : tuple of int
-        Of the batch of N designs.
+    posture, bicycle, shape
+        As for :func:`rider_motion`.
     """
     tree = posture.tree
+    shape = posture.skeleton.points.shape[:-2] if shape is None else shape
     foot, axis = steer_axis(bicycle)
     points = [loop.point for loop in posture.loops if loop.directions is None]
     pairs = [loop.directions for loop in posture.loops if loop.directions is not None]
@@ -94,7 +94,7 @@ def loops_of(posture: Posture, bicycle: Bicycle, shape: tuple[int, ...]) -> tupl
         parting = cross3(spin[:, ends.chain], held[:, :, None]) + twist[:, ends.chain]
         columns = parting if ends.signs.all() and (ends.signs > 0).all() else parting * ends.signs[:, :, None]
     near, far = arrays[-2:] if pairs else (None, None)
-    return xp, Loops(tree, bar[:, 0], bar[:, 1], held, columns, near, far), (spin, twist)
+    return xp, shape, Loops(tree, bar[:, 0], bar[:, 1], held, columns, near, far), (spin, twist)
 
 
 def joint_motion(posture: Posture, bicycle: Bicycle) -> tuple[dict[str, Array], dict[str, Array], tuple[Fault, ...]]:

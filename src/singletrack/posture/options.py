@@ -11,7 +11,7 @@ import numpy as np
 from singletrack.arrays import Number, is_concrete, part_of
 from singletrack.errors import InputError, unknown_name
 from singletrack.library import shipped
-from singletrack.posture.mechanism import Mechanism
+from singletrack.posture.mechanism import STIFFEST, Mechanism
 
 __all__ = ["ARMS", "POSTURES", "SHOULDERS", "STEER", "Options", "input_name"]
 
@@ -53,7 +53,8 @@ class Options:
     Raises
     ------
     InputError
-        For a name that is not known, an option that the posture does not have, a number that is negative or not finite.
+        For a name that is not known, an option that the posture does not have, a number that is negative, not finite or
+        beyond all that is ridden.
 
     Examples
     --------
@@ -157,3 +158,6 @@ def _refuse_negative(what: str, value: Number, unit: str) -> None:
         raise InputError(f"{what}: found {value!r}, must be a number in {unit}")
     if not np.isfinite(numbers).all() or (numbers.real < 0).any():
         raise InputError(f"{what}: found {value} {unit}, must be a finite number of zero or more")
+    if (np.abs(numbers) > STIFFEST).any():
+        most = f"at most {STIFFEST:g} {unit}"
+        raise InputError(f"{what}: found {np.abs(numbers).max():g} {unit}, must be {most}", found=value, allowed=most)

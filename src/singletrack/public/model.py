@@ -2,19 +2,22 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Self
+import dataclasses
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any, Self
 
 from singletrack import closed_form
 from singletrack.body.oddities import warn_of_oddities
-from singletrack.linear import CriticalSpeeds, Modes, StateSpace, critical_speeds, eigenvalues, modes, state_space
-from singletrack.model import LinearModel
+from singletrack.linear import CriticalSpeeds, Modes, StateSpace, critical_speeds, eigenvalues, modes
+from singletrack.model import LinearModel, Outputs
 from singletrack.posture import Options, named_posture, require_posture, require_records
 from singletrack.present.latex import latex_table
 from singletrack.public.display import lines_of_model, table_of_model
+from singletrack.public.origin import Origin, observed
 from singletrack.public.plotting import figure_of_model
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Mapping, Sequence
     from pathlib import Path
 
     from matplotlib.figure import Figure
@@ -27,8 +30,14 @@ if TYPE_CHECKING:
 __all__ = ["CoefficientMatrices", "coefficients"]
 
 
+@dataclass(frozen=True, eq=False, repr=False)
 class CoefficientMatrices(LinearModel):
     """A :class:`~singletrack.model.LinearModel` that can be asked directly; attributes as there.
+
+    Attributes
+    ----------
+    origin : Origin, optional
+        Bicycle, rider and posture that it was made from.
 
     Examples
     --------
@@ -38,11 +47,20 @@ class CoefficientMatrices(LinearModel):
     ((1, 4), [4.292382536...])
     """
 
+    origin: Origin | None = field(default=None, kw_only=True)
+
     @classmethod
-    def of(cls, model: LinearModel) -> Self:
-        """Return a model of any maker as one that can be asked."""
+    def of(cls, model: LinearModel, origin: Origin | None = None) -> Self:
+        """Return a model of any maker as one that can be asked.
+
+        Parameters
+        ----------
+        model : LinearModel
+        origin : Origin, optional
+            What it was made from, of which the rider's joints and hands can be asked.
+        """
         asked = object.__new__(cls)
-        asked.__dict__.update(model.__dict__)  # what is a model already need not be looked at again
+        asked.__dict__.update(model.__dict__, origin=origin)  # what is a model already need not be looked at again
         return asked
 
     def __repr__(self) -> str:
@@ -134,9 +152,37 @@ class CoefficientMatrices(LinearModel):
         """
         return latex_table(self, self.critical_speeds(), caption, digits)
 
-    def state_space(self, speed: ArrayLike) -> StateSpace:
-        """Return the equations at one or several forward speeds in m/s as first-order systems (:class:`StateSpace`)."""
-        return state_space(self, speed)
+    def state_space(self, speed: ArrayLike, outputs: Sequence[str] | Outputs | None = None) -> StateSpace:
+        """Return the equations at one or several forward speeds as first-order systems (:class:`StateSpace`).
+
+        Parameters
+        ----------
+        speed : array, shape () or (k,)
+            In m/s.
+        outputs : sequence of str or Outputs, optional
+            What is seen; by default the states. Names of states (``lean``, ``steer rate``), of accelerations
+            (``lean acceleration``), and, with a rider, of joint angles (``right elbow``), their rates, and forces of
+            the hands (``right hand force y``; see :func:`singletrack.closed_form.rider_outputs`); or a record of such
+            outputs, which follow after the states.
+
+        Raises
+        ------
+        InputError
+            For an unknown name, or an input of which it is not known what it does to a hand.
+
+        Examples
+        --------
+        >>> from singletrack import coefficients, load_bicycle, load_rider
+        >>> model = coefficients(load_bicycle("browser"), load_rider("rider-a"), "upright")
+        >>> model.state_space([4.0, 6.0], ["lean", "right elbow", "right hand force x"]).C.shape
+        (2, 3, 4)
+        """
+        return observed(self, speed, outputs, self.origin)
+
+    def __getitem__(self, index: Any) -> Self:
+        """Return some designs of a batch: an index, slice or mask of the batch's axes."""
+        some = super().__getitem__(index)
+        return some if self.origin is None else dataclasses.replace(some, origin=self.origin.at(index))
 
 
 def coefficients(
@@ -207,4 +253,4 @@ def coefficients(
     shares = None if single is None or single.margins is None else single.margins.shares
     warn_of_oddities(bicycle, rider, shares)
     model = closed_form.coefficients(bicycle, rider, options) if single is None else single.model
-    return CoefficientMatrices.of(model)
+    return CoefficientMatrices.of(model, None if rider is None else Origin(bicycle, rider, options))

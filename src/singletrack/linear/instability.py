@@ -1,0 +1,93 @@
+"""What is unstable of a bicycle that no speed makes stable: the modes that grow at every speed."""
+
+from __future__ import annotations
+
+import itertools
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from singletrack.errors import InputError
+from singletrack.linear.critical import critical_speeds
+from singletrack.linear.modes import modes
+
+if TYPE_CHECKING:
+    from singletrack.linear.critical_record import CriticalSpeeds
+    from singletrack.model import LinearModel
+
+__all__ = ["AlwaysUnstable", "always_unstable"]
+
+#: Speeds, m/s, at which growth is told: as far as people ride.
+_TOLD = np.linspace(0.1, 10.0, 100)
+
+
+class AlwaysUnstable(NamedTuple):
+    """A mode that grows at every speed.
+
+    Attributes
+    ----------
+    mode : str
+    oscillates : bool
+        Whether it is a pair anywhere below 10 m/s; else it falls.
+    growth : (float, float)
+        Least and greatest real part of its eigenvalue from 0.1 to 10 m/s, 1/s.
+    """
+
+    mode: str
+    oscillates: bool
+    growth: tuple[float, float]
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the fields for JSON."""
+        return {"mode": self.mode, "oscillates": self.oscillates, "growth": list(self.growth)}
+
+
+def always_unstable(model: LinearModel, critical: CriticalSpeeds | None = None) -> tuple[AlwaysUnstable, ...]:
+    """Return the modes of a single design that are unstable at every speed, the fastest first.
+
+    Stability changes at crossings alone, so one speed between each two of them decides. There is none where some speed
+    is stable, or where different modes are unstable at different speeds.
+
+    Parameters
+    ----------
+    model : LinearModel
+    critical : CriticalSpeeds, optional
+        Of the model, where they are known.
+
+    Raises
+    ------
+    InputError
+        For a batch.
+
+    Examples
+    --------
+    >>> from singletrack import coefficients, load_bicycle, load_rider
+    >>> upright = coefficients(load_bicycle("browser"), load_rider("rider-a"), "upright")
+    >>> [one.mode for one in always_unstable(upright)]
+    ['capsize']
+    """
+    if model.shape != ():
+        raise InputError(f"models of shape {model.shape}: this is asked of a single design")
+    critical = critical_speeds(model) if critical is None else critical
+    if critical.stable_ranges or critical.status == "could not tell":
+        return ()
+    bounds = [0.0, *(crossing.speed for crossing in critical.crossings)]
+    between = [(a + b) / 2 for a, b in itertools.pairwise(bounds)] + [2 * bounds[-1] + 1.0]
+    speeds = np.concatenate([between, _TOLD])
+    found = modes(model, speeds)
+    growth = found.eigenvalues.real
+    columns: dict[str, int] = {}
+    for column in np.flatnonzero((growth > 0).all(axis=0)):
+        name = found.names[int(column)]
+        if name not in columns or growth[:, column].max() > growth[:, columns[name]].max():
+            columns[name] = int(column)
+    told = slice(len(between), None)
+    one_each = [
+        AlwaysUnstable(
+            name,
+            bool(np.any(found.eigenvalues[told, column].imag)),
+            (float(growth[told, column].min()), float(growth[told, column].max())),
+        )
+        for name, column in columns.items()
+    ]
+    return tuple(sorted(one_each, key=lambda one: -one.growth[1]))
