@@ -90,6 +90,7 @@ html_title = "singletrack"
 html_copy_source = False
 html_show_sourcelink = False
 html_static_path = ["_static", str(HERE.parent / "src" / "singletrack" / "webpage" / "static" / "page.html")]
+html_context = {"default_mode": "auto"}
 html_css_files = ["singletrack.css"]
 html_theme_options = {
     "logo": {"text": "singletrack"},

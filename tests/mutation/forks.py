@@ -13,9 +13,9 @@ if TYPE_CHECKING:
     import pytest
 
 #: Seconds that a test may take beyond some times what it takes: of processor time, as the machine may be busy, ...
-BEYOND, TIMES = 10.0, 10.0
+BEYOND, TIMES = 3.0, 5.0
 #: ... and as many times that by the clock, for a process that waits for ever.
-IDLE = 6.0
+IDLE = 20.0
 
 
 def forked(work: Callable[[], dict[str, Any]]) -> dict[str, Any]:
