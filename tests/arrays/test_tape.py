@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import threading
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -13,7 +14,20 @@ from hypothesis import strategies as st
 from singletrack.arrays.tape import WORDS, record
 
 NUMPY = {"abs": np.abs, "sqrt": np.sqrt, "sin": np.sin, "cos": np.cos, "where": np.where, "maximum": np.maximum}
-OPERATIONS = ("+", "-", "*", "/", "neg", "abs", "sqrt", "where", "where same", "maximum", "and", "or")
+FOLLOWED: dict[str, Callable[..., Any]] = {
+    "+": lambda _, a, b, c: a + b,
+    "-": lambda _, a, b, c: 1.5 - a,
+    "*": lambda _, a, b, c: a * b,
+    "/": lambda _, a, b, c: a / b,
+    "neg": lambda _, a, b, c: -a,
+    "abs": lambda _, a, b, c: abs(a),
+    "sqrt": lambda words, a, b, c: words["sqrt"](a),
+    "where": lambda words, a, b, c: words["where"](a < b, b, c),
+    "where same": lambda words, a, b, c: words["where"](a >= b, a, 0.25),
+    "maximum": lambda words, a, b, c: words["maximum"](a, b),
+    "and": lambda words, a, b, c: words["where"]((a > b) & (b <= c), a, c),
+    "or": lambda words, a, b, c: words["where"]((a > b) | ((b < c) == False), b, a),  # noqa: E712
+}
 
 
 def computed(plan: list[tuple[str, int, int, int]], words: dict[str, Any], values: list[Any]) -> list[Any]:
@@ -21,26 +35,12 @@ def computed(plan: list[tuple[str, int, int, int]], words: dict[str, Any], value
     known = list(values)
     for operation, i, j, k in plan:
         a, b, c = (known[n % len(known)] for n in (i, j, k))
-        results = {
-            "+": lambda a=a, b=b: a + b,
-            "-": lambda a=a: 1.5 - a,
-            "*": lambda a=a, b=b: a * b,
-            "/": lambda a=a, b=b: a / b,
-            "neg": lambda a=a: -a,
-            "abs": lambda a=a: abs(a),
-            "sqrt": lambda a=a: words["sqrt"](a),
-            "where": lambda a=a, b=b, c=c: words["where"](a < b, b, c),
-            "where same": lambda a=a, b=b: words["where"](a >= b, a, 0.25),
-            "maximum": lambda a=a, b=b: words["maximum"](a, b),
-            "and": lambda a=a, b=b, c=c: words["where"]((a > b) & (b <= c), a, c),
-            "or": lambda a=a, b=b, c=c: words["where"]((a > b) | ((b < c) == False), b, a),  # noqa: E712
-        }
-        known.append(results[operation]())
+        known.append(FOLLOWED[operation](words, a, b, c))
     return known[-3:]
 
 
 PLANS = st.lists(
-    st.tuples(st.sampled_from(OPERATIONS), *(st.integers(0, 40) for _ in range(3))), min_size=1, max_size=40
+    st.tuples(st.sampled_from(sorted(FOLLOWED)), *(st.integers(0, 40) for _ in range(3))), min_size=1, max_size=40
 )
 
 
