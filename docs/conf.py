@@ -75,6 +75,7 @@ sphinx_gallery_conf = {
     "gallery_dirs": "auto_gallery",
     "filename_pattern": r"\.py$",
     "image_scrapers": ("matplotlib", "returned_figures"),
+    "capture_repr": (),  # scripts print what they have to say
     "within_subsection_order": "FileNameSortKey",
     "download_all_examples": False,
     "remove_config_comments": True,
