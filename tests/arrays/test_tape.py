@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -14,19 +13,20 @@ from hypothesis import strategies as st
 from singletrack.arrays.tape import WORDS, record
 
 NUMPY = {"abs": np.abs, "sqrt": np.sqrt, "sin": np.sin, "cos": np.cos, "where": np.where, "maximum": np.maximum}
-FOLLOWED: dict[str, Callable[..., Any]] = {
-    "+": lambda _, a, b, c: a + b,
-    "-": lambda _, a, b, c: 1.5 - a,
-    "*": lambda _, a, b, c: a * b,
-    "/": lambda _, a, b, c: a / b,
-    "neg": lambda _, a, b, c: -a,
-    "abs": lambda _, a, b, c: abs(a),
-    "sqrt": lambda words, a, b, c: words["sqrt"](a),
-    "where": lambda words, a, b, c: words["where"](a < b, b, c),
-    "where same": lambda words, a, b, c: words["where"](a >= b, a, 0.25),
-    "maximum": lambda words, a, b, c: words["maximum"](a, b),
-    "and": lambda words, a, b, c: words["where"]((a > b) & (b <= c), a, c),
-    "or": lambda words, a, b, c: words["where"]((a > b) | ((b < c) == False), b, a),  # noqa: E712
+#: By operation: an expression of the operands a, b, c and the words.
+FOLLOWED = {
+    "+": "a + b",
+    "-": "1.5 - a",
+    "*": "a * b",
+    "/": "a / b",
+    "neg": "-a",
+    "abs": "abs(a)",
+    "sqrt": "sqrt(a)",
+    "where": "where(a < b, b, c)",
+    "where same": "where(a >= b, a, 0.25)",
+    "maximum": "maximum(a, b)",
+    "and": "where((a > b) & (b <= c), a, c)",
+    "or": "where((a > b) | ((b < c) == False), b, a)",
 }
 
 
@@ -35,7 +35,7 @@ def computed(plan: list[tuple[str, int, int, int]], words: dict[str, Any], value
     known = list(values)
     for operation, i, j, k in plan:
         a, b, c = (known[n % len(known)] for n in (i, j, k))
-        known.append(FOLLOWED[operation](words, a, b, c))
+        known.append(eval(FOLLOWED[operation], {**words, "a": a, "b": b, "c": c}))  # noqa: S307  # our own text
     return known[-3:]
 
 
