@@ -54,7 +54,7 @@ def test_a_tape_is_its_function_bit_for_bit(plan: list[tuple[str, int, int, int]
             found = tape.run(*values)
             for one, other in zip(found, expected, strict=True):
                 np.testing.assert_array_equal(one, other)
-    assert tape.passes <= 4 * len(plan)
+    assert tape.passes <= 5 * len(plan)
 
 
 def test_what_is_not_needed_or_known_already_is_not_computed() -> None:
