@@ -18,7 +18,6 @@ from singletrack.linear.quartic.kernel import factor, monic, ordered_roots
 
 if TYPE_CHECKING:
     from collections.abc import Callable
-    from types import ModuleType
 
     from singletrack.arrays import Array
     from singletrack.arrays.tape import Tape
@@ -66,15 +65,16 @@ class _Kernel:
     """Which kernel solves: NumPy at first, the compiled one once it has become worth its start."""
 
     solved = 0
-    compiled: ModuleType | None = None
+    compiled: Callable[..., None] | None = None
+    at_speeds: Callable[..., None] | None = None
 
 
 def use_compiled() -> bool:
     """Load the compiled kernel now (for long work); return whether there is one. Both give the same bits."""
     if _Kernel.compiled is None and find_spec("numba") is not None:
-        from singletrack.linear.quartic import compiled  # lazy: heavy, optional
+        from singletrack.linear.quartic.compiled import roots_at_speeds, roots_into  # lazy: heavy, optional
 
-        _Kernel.compiled = compiled
+        _Kernel.compiled, _Kernel.at_speeds = roots_into, roots_at_speeds
     return _Kernel.compiled is not None
 
 
@@ -93,7 +93,7 @@ def solve_into(roots: np.ndarray, b: np.ndarray, c: np.ndarray, d: np.ndarray, e
     if _Kernel.compiled is None:
         _roots_into(roots, good, _all_at_once, b, c, d, e)
     else:
-        _Kernel.compiled.roots_into(roots, good, b, c, d, e)
+        _Kernel.compiled(roots, good, b, c, d, e)
     if not good.all():
         bad = ~good
         roots[bad] = solve_again(b[bad], c[bad], d[bad], e[bad])
@@ -114,13 +114,14 @@ def solve_at_speeds(roots: np.ndarray, ratios: np.ndarray, speeds: np.ndarray) -
     shape = roots.shape[:-1]
     _count(roots.size // 4)
     good = np.empty(shape, dtype=bool)
-    if _Kernel.compiled is not None and shape[1] >= _ENOUGH_SPEEDS and roots.flags.c_contiguous:
-        _Kernel.compiled.roots_at_speeds(roots, good, ratios, speeds)
-    elif _Kernel.compiled is not None:
+    compiled, at_speeds = _Kernel.compiled, _Kernel.at_speeds
+    if compiled is not None and at_speeds is not None and shape[1] >= _ENOUGH_SPEEDS and roots.flags.c_contiguous:
+        at_speeds(roots, good, np.ascontiguousarray(ratios), speeds)
+    elif compiled is not None:
         with np.errstate(all="ignore"):
             quartics = [np.broadcast_to(a, shape).ravel() for a in _monic_at(ratios[..., None], speeds)]
         flat = np.empty((roots.size // 4, 4), dtype=complex)
-        _Kernel.compiled.roots_into(flat, good.reshape(-1), *quartics)
+        compiled(flat, good.reshape(-1), *quartics)
         roots[:] = flat.reshape(roots.shape)
     else:
         values = [np.broadcast_to(a, shape) for a in (*ratios[..., None], speeds)]
