@@ -36,8 +36,7 @@ for name, model in {"hands free": free, "hands on the bar": held}.items():
 #
 # With hands on the bar nothing changes its kind, and the range moves up, from 4.66 to 7.87 m/s (hands free) to 5.99 to
 # 9.59 m/s; weave is slower throughout. More inertia at the bar makes the steer answer a lean later, which is why more
-# speed is needed; the more negative stiffness, the bar's tendency to fall to the side to which the bicycle leans, holds
-# off capsize.
+# speed is needed; the more negative stiffness, with which a bar that is turned turns further, holds off capsize.
 
 speeds = np.linspace(0.0, 10.0, 401)
 figure, axes = plt.subplots(1, 2, figsize=(10.5, 4.4), layout="constrained")

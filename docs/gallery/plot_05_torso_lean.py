@@ -40,9 +40,9 @@ for name, model in models.items():
 # is well damped, and what is left of the bicycle, weave and capsize, is hardly changed: stable from 5.96 to 9.84 m/s
 # where the rigid back gives 6.12 to 9.60.
 #
-# In between lies trouble. Gravity takes about as much stiffness from the torso as a spring of 100 N m/rad gives it, so
-# that its motion is slow, mixes with capsize, and the pair of them grows. That stiffness alone does not tell: whether
-# the rider is *able* to stop it by leaning is the question of controllability, on the next page.
+# In between lies trouble. Gravity takes 126 N m/rad of stiffness from the torso, a spring of 100 gives less than that:
+# the motion of the torso is slow, mixes with capsize, and the pair of them grows. Whether the rider is *able* to stop
+# it by leaning is the question of controllability, on the next page.
 
 figure, axes = plt.subplots(figsize=(8.0, 4.6), layout="constrained")
 colours = {"weave": "#0072B2", "capsize": "#D55E00", "castering": "#009E73", "torso lean": "#CC79A7"}

@@ -26,9 +26,9 @@ for speed, family in families.items():
 # %%
 # What is seen
 # ------------
-# Left, the torque that holds the turn. It is positive, into the turn: let go, and this bicycle straightens up by itself
-# in the hands, as riders of city bicycles know. It grows more than in proportion, because the arms, one stretched, one
-# folded, resist ever more.
+# Left, the torque that holds the turn. It is positive, into the turn: the arms would turn the bar straight, so that the
+# hands have to keep it in, and who lets go of it falls to the inside. It grows more than in proportion, because the
+# arms, one stretched, one folded, resist ever more.
 #
 # All three curves end for one reason: at 22 degrees of steer the left hand, the outer one, is at the end of its reach.
 # On the way there the limit is the road: the friction that the tyres must give (right) passes 0.8, dry asphalt, at 36

@@ -29,7 +29,7 @@ print(f"steering into the fall: {caught.end}, lean {lean.max():.1f} deg at most 
 # What is seen
 # ------------
 # Hands that hold still do not prevent the bar from turning, but too little and too late: the lean grows by a factor of
-# e every 0.6 s (linear theory: 1.73 1/s at 4 m/s), and after 1.5 s rider and bicycle are on the ground.
+# e every 0.6 s (linear theory: 1.74 1/s at 4 m/s), and after 1.5 s rider and bicycle are on the ground.
 #
 # Steering into the fall brings the wheels back under the rider: 5 N m for each rad of lean and each rad/s of lean rate
 # are enough here. The lean comes to 4.8 degrees and dies out, swinging; the bicycle goes on in another direction than

@@ -40,8 +40,8 @@ print(f"the pin bears up to {pin.max():.0f} N, at {run.time[pin.argmax()].item()
 # What is seen
 # ------------
 # Left, the machine at twelve moments of a turn of the crank, and the curve on which the middle of the coupler runs.
-# Nothing drives it: its weight and its momentum carry it round. Right, the speed of the crank and the force in
-# the pin: both are largest once a turn, for a tenth of a second, where crank and coupler pull the rocker back.
+# Nothing drives it: its weight and its momentum carry it round. Right, the speed of the crank and the force in the pin:
+# both are largest once a turn, for a tenth of a second, where the rocker turns back.
 #
 # The same closure holds a rider's hands on the grips, and the same linearisation about a state gives the bicycle's
 # matrices. That is the second derivation against which the closed form is tested.

@@ -35,9 +35,9 @@ with TemporaryDirectory() as folder:
 # ------------
 # The answer of the lean to a sine of steer torque, drawn by python-control from our state spaces at three speeds within
 # the stable range (4.29 to 6.02 m/s). Close to the weave speed the bicycle resonates: a hand that moves at weave's own
-# frequency leans it five times as far as at half of it. At 5.8 m/s, close to the capsize speed, there is no such peak;
-# slow torques lean it most, because capsize hardly comes back. (Outside of the range there would be a curve, too, and
-# nothing to measure it by: what grows by itself drowns the answer.)
+# frequency leans it five times as far as at half of it. At 5.8 m/s, close to the capsize speed, there is no such peak:
+# what leans it most is a slow torque, because capsize hardly comes back. (Outside of the range there would be a curve,
+# too, and nothing to measure it by: what grows by itself drowns the answer.)
 
 figure, axes = plt.subplots(2, 1, figsize=(7.4, 5.0), layout="constrained", sharex=True)
 frequencies = np.geomspace(0.1, 10.0, 400)  # Hz
