@@ -12,7 +12,7 @@ from singletrack.arrays import Array, as_arrays, is_concrete, refuse_single, req
 from singletrack.closed_form.batches import batch_shape, in_parts
 from singletrack.closed_form.flexible import flexible_matrices, hinge_laws
 from singletrack.closed_form.many import many_designs
-from singletrack.closed_form.round_tyres import load_of_rider, on_round_tyres
+from singletrack.closed_form.round_tyres import has_round_tyres, load_of_rider, on_round_tyres
 from singletrack.closed_form.single import single_design
 from singletrack.closed_form.slaved import slaved_matrices
 from singletrack.closed_form.whipple import Matrices, whipple_matrices
@@ -140,7 +140,8 @@ def seated_model(
         coordinates=(*COORDINATES, *bodies.freedoms),
         inputs=(*INPUTS, *map(input_name, bodies.freedoms)),
     )
-    return on_round_tyres(_softened(model, bicycle, posture), bicycle, load_of_rider(posture))
+    load = load_of_rider(posture) if has_round_tyres(bicycle) else None
+    return on_round_tyres(_softened(model, bicycle, posture), bicycle, load)
 
 
 def _softened(model: LinearModel, bicycle: Bicycle, posture: Posture | None) -> LinearModel:

@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, Any
 from singletrack.errors import InputError
 from singletrack.parameters import Bicycle, Rider
 from singletrack.parameters.bicycle import FRAME_GEOMETRY
-from singletrack.posture import Options, file_of_posture
+from singletrack.posture import Mechanism, Options, file_of_posture, shipped_alike
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -107,13 +107,19 @@ def program_of(bicycle: Bicycle, rider: Rider | None, options: Options) -> Progr
         or rider.shapes
     ):
         return None
-    if options.fit is not None or not isinstance(options.posture, str):
-        return None
+    name = None if options.fit is not None else _file_of(options)
+    return None if name is None else program_named(name + LEAN if options.torso_lean else name)
+
+
+def _file_of(options: Options) -> str | None:
+    """Return the name of the file of the posture that options ask for, None where it is not shipped."""
+    if isinstance(options.posture, Mechanism):
+        plain = options.shoulder is None and options.arms is None
+        return shipped_alike(options.posture) if plain else None
     try:
-        name = file_of_posture(options.posture, options.shoulder, options.arms)
+        return file_of_posture(options.posture, options.shoulder, options.arms)
     except InputError:  # said when the posture itself is asked for
         return None
-    return program_named(name + LEAN if options.torso_lean else name)
 
 
 @functools.cache

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from singletrack.parameters import Bicycle
     from singletrack.posture import Posture
 
-__all__ = ["load_of_rider", "on_round_tyres"]
+__all__ = ["has_round_tyres", "load_of_rider", "on_round_tyres"]
 
 
 def on_round_tyres(model: LinearModel, bicycle: Bicycle, rider_load: tuple[Number, Number] | None) -> LinearModel:
@@ -47,7 +47,7 @@ def on_round_tyres(model: LinearModel, bicycle: Bicycle, rider_load: tuple[Numbe
     >>> round(float(round_.critical_speeds().capsize[0] - knife.critical_speeds().capsize[0]), 3) != 0.0
     True
     """
-    if bicycle.rear_tyre_radius is None and bicycle.front_tyre_radius is None:
+    if not has_round_tyres(bicycle):
         return model
     xp, (tilt, base) = as_arrays(bicycle.steer_axis_tilt, bicycle.wheel_base)
     front, rear = _loads(bicycle, rider_load)
@@ -62,6 +62,16 @@ def on_round_tyres(model: LinearModel, bicycle: Bicycle, rider_load: tuple[Numbe
             _, (weight,) = as_arrays(radius * load)
             K0 = K0 + weight[..., None, None] * lean[..., :, None] * lean[..., None, :]
     return dataclasses.replace(model, K0=K0)
+
+
+def has_round_tyres(bicycle: Bicycle) -> bool:
+    """Tell whether the tyres of a bicycle are round: whether a rider's load matters.
+
+    Parameters
+    ----------
+    bicycle : Bicycle
+    """
+    return bicycle.rear_tyre_radius is not None or bicycle.front_tyre_radius is not None
 
 
 def load_of_rider(posture: Posture) -> tuple[Number, Number]:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import importlib
-import logging
 import os
 import signal
 import sys
@@ -48,9 +47,9 @@ def main() -> None:
 
 
 def _run() -> int:
-    # Where it keeps its fonts, or that it cannot keep them without a home folder, is nothing that a user asked for.
-    logging.getLogger("matplotlib").setLevel(logging.ERROR)
-    # The door of all commands, opened within the guard: an interruption while libraries load ends in one sentence too.
+    # Commands are imported within the guard: an interruption while libraries load ends in one sentence too.
+    if importlib.import_module("singletrack.commands.plain").answered(sys.argv[1:]):
+        return 0
     return int(importlib.import_module("singletrack.commands.door").run(sys.argv[1:]))
 
 
@@ -91,7 +90,7 @@ def _notes(error: BaseException) -> list[str]:
 
 
 def _said(text: str, code: int) -> int:
-    say = importlib.import_module("singletrack.present.terminal").say  # light; guarded like all the rest
+    say = importlib.import_module("singletrack.present.readable").say  # light; guarded like all the rest
     say(f"singletrack: {text}")
     return code
 

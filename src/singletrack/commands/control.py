@@ -67,7 +67,7 @@ def run(
     if bode is not None and len(wanted) > _MOST_OUTPUTS:
         raise InputError(f"--bode: draws at most {_MOST_OUTPUTS} outputs, found {len(wanted)}")
     made = model_from(bicycle, options)
-    system = made.model.state_space(values, outputs)
+    system = made.asked.state_space(values, outputs)
     found = control_summary(made.model, values, inputs)
     if json:
         print_json(found.to_dict() | (system.to_dict() if wanted else {}))
@@ -103,10 +103,10 @@ def _check_files(figures: tuple[Path | None, ...], mat: Path | None) -> None:
 
 def _locus(made: Made, speeds: np.ndarray) -> Figure:
     dense = np.linspace(speeds.min(), speeds.max(), _LOCUS)
-    return locus_figure(dense, made.model.modes(dense).eigenvalues, made.title)
+    return locus_figure(dense, made.asked.modes(dense).eigenvalues, made.title)
 
 
 def _bode(made: Made, speeds: np.ndarray, outputs: list[str] | None) -> Figure:
     """Return the figure of outputs over frequency; without outputs asked for, of the coordinates."""
-    system = made.model.state_space(speeds, outputs or list(made.model.coordinates))
+    system = made.asked.state_space(speeds, outputs or list(made.model.coordinates))
     return bode_figure(frequency_response(system, _BODE), made.title)

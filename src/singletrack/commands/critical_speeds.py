@@ -15,7 +15,7 @@ __all__ = ["run"]
 def run(bicycle: BicycleArgument, options: ModelOptions, json: JsonOption = False) -> None:
     """Print weave and capsize speeds and the stable ranges."""
     made = model_from(bicycle, options)
-    speeds = made.model.critical_speeds()
+    speeds = made.asked.critical_speeds()
     unstable = always_unstable(made.model, speeds)
     if json:
         # Two freedoms have the JSON of version 0.1.

@@ -10,6 +10,7 @@ import dataclasses
 import functools
 import importlib
 import inspect
+import logging
 from typing import TYPE_CHECKING, Annotated, Any, get_type_hints
 
 import typer
@@ -158,6 +159,8 @@ def run(arguments: list[str]) -> int:
     InputError
         For arguments that are no command's.
     """
+    # Where it keeps its fonts, or that it cannot keep them without a home folder, is nothing that a user asked for.
+    logging.getLogger("matplotlib").setLevel(logging.ERROR)
     open_streams()
     program: Any = typer.main.get_command(_app)
     try:

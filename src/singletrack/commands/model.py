@@ -6,6 +6,7 @@ import importlib
 import warnings
 from dataclasses import dataclass
 from math import degrees, isfinite
+from typing import TYPE_CHECKING, cast
 
 from singletrack.body.fit import elbow_angle, fit
 from singletrack.body.oddities import warn_of_oddities
@@ -19,8 +20,10 @@ from singletrack.parameters import Bicycle, Rider
 from singletrack.parameters.bicycle import FRAME_GEOMETRY
 from singletrack.parameters.hints import unknown_parameter
 from singletrack.parameters.units import parse_quantity
-from singletrack.public import CoefficientMatrices
-from singletrack.public.origin import Origin
+from singletrack.posture import Options
+
+if TYPE_CHECKING:
+    from singletrack.public import CoefficientMatrices
 
 __all__ = ["Made", "answer_words", "model_from", "seated"]
 
@@ -29,10 +32,18 @@ __all__ = ["Made", "answer_words", "model_from", "seated"]
 class Made:
     """A model, what it was made from, and a heading that says so."""
 
-    model: CoefficientMatrices
+    model: LinearModel
     bicycle: Bicycle
     rider: Rider | None
     title: str
+    sitting: Options
+
+    @property
+    def asked(self) -> CoefficientMatrices:
+        """The model as one that can be asked for eigenvalues, modes, critical speeds: not every command does."""
+        public = importlib.import_module("singletrack.public")  # a door: with all that can be asked
+        origin = None if self.rider is None else public.Origin(self.bicycle, self.rider, self.sitting)
+        return cast("CoefficientMatrices", public.CoefficientMatrices.of(self.model, origin))
 
 
 def model_from(bicycle: str, options: ModelOptions) -> Made:
@@ -51,12 +62,11 @@ def model_from(bicycle: str, options: ModelOptions) -> Made:
     """
     record, rider, changed = seated(bicycle_named(bicycle), options)
     maker = importlib.import_module(f"singletrack.{options.engine.name}")  # a door: the engine's libraries are heavy
-    origin = None if rider is None else Origin(record, rider, options.sitting)
-    model = CoefficientMatrices.of(_answered(maker.coefficients(record, rider, options.sitting), options), origin)
+    model = _answered(maker.coefficients(record, rider, options.sitting), options)
     rider = None if rider is None else rider.on(record)
     warn_of_oddities(record, rider)
     who = "" if rider is None else f" with {rider.name or 'rider'}, {options.sitting.title}"
-    return Made(model, record, rider, f"{record.name}{who}{changed}{answer_words(options)}")
+    return Made(model, record, rider, f"{record.name}{who}{changed}{answer_words(options)}", options.sitting)
 
 
 def _answered(model: LinearModel, options: ModelOptions) -> LinearModel:

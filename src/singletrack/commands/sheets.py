@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
+import importlib
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from singletrack.analysis.sheet_designs import SheetDesign
-from singletrack.catalogue import estimate, expected, read_sheet
-from singletrack.catalogue.tables import entries
 from singletrack.errors import InputError, SingletrackError
 from singletrack.files.source import read_text
 from singletrack.files.toml_keys import place_of_any
@@ -17,6 +15,7 @@ from singletrack.library import load_bicycle
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
+    from singletrack.analysis.sheet_designs import SheetDesign
     from singletrack.parameters import Bicycle, Rider
     from singletrack.posture import Options
 
@@ -39,10 +38,11 @@ def sheet_entries(name: str) -> dict[str, Any] | None:
         keys = parse_toml(text, name)
     except InputError:
         return None  # the reader of bicycles says what is wrong
-    own = [key for key in keys if key in entries()]
+    known = importlib.import_module("singletrack.catalogue.tables").entries()
+    own = [key for key in keys if key in known]
     if keys.get("kind") != "sheet" and ("kind" in keys or "parameters" in keys or not own):
         return None
-    given = read_sheet(text, name)
+    given: dict[str, Any] = _catalogue().read_sheet(text, name)
     given["name"] = given.get("name") or path.stem
     return given
 
@@ -60,7 +60,10 @@ def bicycle_named(name: str) -> Bicycle:
         Of a sheet, with its line.
     """
     given = sheet_entries(name)
-    return load_bicycle(name) if given is None else _of_sheet(name, lambda: estimate(**given)).bicycle
+    if given is None:
+        return load_bicycle(name)
+    found: Bicycle = _of_sheet(name, lambda: _catalogue().estimate(**given)).bicycle
+    return found
 
 
 def sheet_design(
@@ -86,8 +89,15 @@ def sheet_design(
         return None
     theirs = () if rider is None else (*rider.values(), "elbow angle")
     mine = [entry for entry in vary if entry not in theirs and not entry.startswith(("spring at ", "damper at "))]
-    found = _of_sheet(name, lambda: expected(mine, **given))
-    return SheetDesign.of_sheet(found, rider, options, title)
+    found = _of_sheet(name, lambda: _catalogue().expected(mine, **given))
+    design: SheetDesign = importlib.import_module("singletrack.analysis.sheet_designs").SheetDesign.of_sheet(
+        found, rider, options, title
+    )
+    return design
+
+
+def _catalogue() -> Any:
+    return importlib.import_module("singletrack.catalogue")  # a door: few bicycles are sheets
 
 
 def _of_sheet(name: str, make: Callable[[], Any]) -> Any:

@@ -1,5 +1,6 @@
 """Which segments of the rider move with the steer, and how."""
 
+from singletrack.posture.alike import shipped_alike
 from singletrack.posture.arguments import require_bicycle, require_posture, require_records
 from singletrack.posture.bodies import SlavedMass, slaved_mass
 from singletrack.posture.cut import CutLoops, cut_loops
@@ -50,6 +51,7 @@ __all__ = [
     "require_posture",
     "require_records",
     "seat",
+    "shipped_alike",
     "slaved_bodies",
     "slaved_mass",
     "steer_axis",
