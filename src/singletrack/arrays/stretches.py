@@ -69,6 +69,8 @@ def stretches(count: int, length: int) -> list[slice]:
     >>> [(s.start, s.stop) for s in stretches(10, 4)]
     [(0, 3), (3, 6), (6, 10)]
     """
+    if count <= length:
+        return [slice(0, count)]
     pieces = max(1, min(-(-count // max(length, 2)), count // 2))
     edges = [count * k // pieces for k in range(pieces + 1)]
     return [slice(low, high) for low, high in pairwise(edges)]
@@ -89,9 +91,11 @@ def in_stretches(work: Callable[[slice], None], count: int, length: int) -> None
     Exception
         What the function raised for the first stretch that it failed for.
     """
+    if count <= length:
+        work(slice(0, count))
+        return
     pieces = stretches(count, length)
-    workers = min(threads(), len(pieces))
-    if workers < 2:
+    if len(pieces) < 2 or threads() < 2:
         for piece in pieces:
             work(piece)
         return

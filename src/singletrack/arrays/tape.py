@@ -142,7 +142,7 @@ class Tape:
         """How often an array is gone through: what it costs, in units of an array's length."""
         return len(self.steps)
 
-    def run(self, *values: Array | float) -> list[Array | float]:
+    def run(self, *values: Array | float) -> list[Any]:
         """Return the results (n,) for arrays of n entries; they are this thread's until the next run.
 
         Parameters

@@ -68,8 +68,7 @@ class CharacteristicPolynomial:
 
     def ratios(self) -> np.ndarray:
         """Return the coefficients over the first, (8, m) for designs (m,), as :func:`.quartic.kernel.monic` takes."""
-        parts = [a / self.a4 for a in (self.a3, self.a2, self.a1, self.a0)]
-        return np.ascontiguousarray(np.concatenate(parts, axis=-1).T)
+        return np.ascontiguousarray((np.concatenate([self.a3, self.a2, self.a1, self.a0], axis=-1) / self.a4).T)
 
     def rows(self, which: Any) -> CharacteristicPolynomial:
         """Return the polynomials of some designs: an index or a mask of the first axis.

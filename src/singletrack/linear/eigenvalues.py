@@ -79,11 +79,11 @@ def eigenvalues(model: LinearModel, speeds: ArrayLike) -> Array:
         return _jax_eigenvalues(model, _one_axis(speeds))
     v, batch = checked_speeds(speeds), model.shape
     count, undamped = math.prod(batch), model.is_undamped
-    valid = np.broadcast_to(model.valid, batch).ravel()
+    valid = np.broadcast_to(model.valid, batch).ravel() if model.faults else None
     roots = np.empty((count, len(v), 2 * model.freedoms), dtype=complex)
 
     def work(piece: slice) -> None:
-        some, own = model.part(piece), roots[piece]
+        some, own = model.part(piece) if batch else model, roots[piece]
         if model.freedoms > 2:
             own[:] = _by_lapack(some, v)
             return
@@ -93,19 +93,24 @@ def eigenvalues(model: LinearModel, speeds: ArrayLike) -> Array:
             else:
                 own[:] = quartic_roots(*monic_quartic(some.M, *at_speeds(some, v)))
         lost = np.isnan(own[..., 0].real)
-        if lost.any() and (lost := lost & valid[piece, None]).any():
+        if valid is not None:
+            lost &= valid[piece, None]
+        if lost.any():
             _told_otherwise(some, v, own, lost)
 
     least, problems = (1, _PROBLEMS) if model.freedoms > 2 else (_DESIGNS, CHUNK)
     in_stretches(work, count, max(least, problems // max(len(v), 1)))
-    roots[~valid] = np.nan
+    if valid is not None:
+        roots[~valid] = np.nan
     return roots.reshape(*batch, *roots.shape[1:])
 
 
 def _told_otherwise(model: LinearModel, v: np.ndarray, roots: np.ndarray, lost: np.ndarray) -> None:
     """Write the roots (m, k, 4) that are lost, whose quartic was out of range, as found in other units."""
     designs = lost.any(axis=-1)
-    roots[designs] = np.where(lost[designs][..., None], _by_lapack(model[designs], v), roots[designs])
+    roots[designs] = np.where(
+        lost[designs][..., None], _by_lapack(model.broadcast_to((len(roots),))[designs], v), roots[designs]
+    )
 
 
 def _jax_eigenvalues(model: LinearModel, v: Array) -> Array:
@@ -142,6 +147,9 @@ def _one_axis(speeds: ArrayLike) -> Array:
 def _roots_at(polynomials: CharacteristicPolynomial, v: np.ndarray, roots: np.ndarray) -> None:
     """Write the roots (m, k, 4) of m polynomials at speeds (k,)."""
     ratios = polynomials.ratios()
+    if len(roots) * len(v) <= CHUNK:
+        solve_at_speeds(roots, ratios, v)
+        return
     for rows in stretches(len(roots), max(1, CHUNK // max(len(v), 1))):
         some, own = ratios[:, rows], roots[rows]
 

@@ -124,8 +124,7 @@ def solve_at_speeds(roots: np.ndarray, ratios: np.ndarray, speeds: np.ndarray) -
         compiled(flat, good.reshape(-1), *quartics)
         roots[:] = flat.reshape(roots.shape)
     else:
-        values = [np.broadcast_to(a, shape) for a in (*ratios[..., None], speeds)]
-        _roots_into(roots, good, _from_ratios, *values)
+        _roots_into(roots, good, _from_ratios, *ratios[..., None], speeds)
     if not good.all():
         i, k = np.nonzero(~good)
         with np.errstate(all="ignore"):
@@ -150,9 +149,10 @@ def _roots_into(roots: np.ndarray, good: np.ndarray, function: Callable[..., Any
             *parts, sound = _tape(function, len(values)).run(*values)
         else:
             *parts, sound = function(*values, np.where, np.sqrt)
-    good[...] = np.reshape(sound, good.shape)
+    good[...] = sound.reshape(good.shape)
+    real, imag = roots.real, roots.imag
     for k in range(4):
-        roots.real[..., k], roots.imag[..., k] = (np.reshape(parts[j], good.shape) for j in (k, k + 4))
+        real[..., k], imag[..., k] = parts[k].reshape(good.shape), parts[k + 4].reshape(good.shape)
 
 
 def _all_at_once(b: Any, c: Any, d: Any, e: Any, where: Any, sqrt: Any) -> tuple[Any, ...]:
