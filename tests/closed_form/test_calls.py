@@ -22,6 +22,12 @@ if TYPE_CHECKING:
 SPEEDS = np.linspace(0.0, 10.0, 1001)
 
 
+@pytest.fixture(autouse=True)
+def no_jax(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Whether another test has loaded JAX, whose arrays are then looked for, is no matter here."""
+    monkeypatch.setitem(sys.modules, "jax", None)
+
+
 def calls_of(work: Callable[[], Any]) -> int:
     """Return the calls, of Python functions and of compiled ones, that a second run of some work makes."""
     work()
