@@ -4,7 +4,7 @@ VENV ?= .venv
 BIN := $(VENV)/bin
 TOOLS ?= .tools
 
-.PHONY: reproduce test coverage fuzz check format benchmark setup setup-dev lock audit kill mutants clean
+.PHONY: reproduce test coverage fuzz check format benchmark setup setup-dev setup-docs lock lock-docs audit kill mutants clean
 
 reproduce: setup
 	$(BIN)/singletrack reproduce
@@ -32,7 +32,14 @@ format: setup-dev
 benchmark: setup-dev
 	$(BIN)/python -m pytest benchmarks --benchmark-enable
 
+# The site: built into docs/_build/html, executed again only where something has changed; warnings are errors.
+.PHONY: docs
+docs: setup-docs
+	$(BIN)/python -m sphinx -W --keep-going --quiet -j auto -b html docs docs/_build/html
+	@echo "docs/_build/html/index.html"
+
 setup: $(VENV)/ready
+setup-docs: $(VENV)/ready-docs
 setup-dev: $(VENV)/ready-dev
 
 # Every package is one of those whose hashes are listed, and no other is looked for (an extra of a listed one would be); ours is built by tools among them, and not by others.
@@ -50,6 +57,12 @@ $(VENV)/ready-dev: pyproject.toml requirements/dev.txt
 	$(INSTALL) --no-deps --no-build-isolation --editable .
 	touch $@ $(VENV)/ready
 
+$(VENV)/ready-docs: pyproject.toml requirements/docs.txt
+	$(PYTHON) -m venv $(VENV)
+	$(INSTALL) --require-hashes --no-deps --requirement requirements/docs.txt
+	$(INSTALL) --no-deps --no-build-isolation --editable .
+	touch $@ $(VENV)/ready
+
 $(TOOLS)/ready: requirements/tools.txt
 	$(PYTHON) -m venv $(TOOLS)
 	$(TOOLS)/bin/python -m pip install --quiet --disable-pip-version-check --require-hashes --no-deps --requirement requirements/tools.txt
@@ -57,31 +70,41 @@ $(TOOLS)/ready: requirements/tools.txt
 
 # After a change of dependencies: pin the version in constraints.txt, then write the lists of hashes anew, for every
 # Python from 3.11 on and every system.
-LOCK = $(TOOLS)/bin/uv pip compile --quiet --universal --python-version 3.11 --generate-hashes --no-annotate --no-header \
+LOCK = $(TOOLS)/bin/uv pip compile --quiet --universal --python-version $(or $(FROM),3.11) --generate-hashes --no-annotate --no-header \
 	--no-config --constraint constraints.txt
 
 lock: $(TOOLS)/ready
 	$(LOCK) pyproject.toml requirements/build.in --output-file requirements/run.txt
 	$(LOCK) pyproject.toml requirements/build.in --extra dev --output-file requirements/dev.txt
+	$(MAKE) --no-print-directory lock-docs FROM=3.11.5
 	$(LOCK) requirements/tools.in --output-file requirements/tools.txt
 
+lock-docs: $(TOOLS)/ready  # the theme parses with a package of Python 3.11.5
+	$(LOCK) pyproject.toml requirements/build.in --extra docs --output-file requirements/docs.txt
+
+LISTS = requirements/dev.txt requirements/docs.txt requirements/tools.txt
 audit: $(TOOLS)/ready
-	$(TOOLS)/bin/pip-audit --strict --require-hashes --disable-pip --requirement requirements/dev.txt
-	$(TOOLS)/bin/pip-audit --strict --require-hashes --disable-pip --requirement requirements/tools.txt
+	$(TOOLS)/bin/python requirements/audit.py $(TOOLS)/bin/pip-audit $(LISTS)
 
 # One hundred kills at random instants, and every call to the system failing in turn.
 kill: setup-dev
 	SINGLETRACK_KILLS=100 SINGLETRACK_EXHAUSTIVE=1 $(BIN)/python -m pytest tests/sweep/test_kills.py \
 		tests/sweep/test_durable.py tests/sweep/test_damage.py
 
-# Mutation testing of the packages in MUTANTS; hours for all of them, so that a sample is taken unless SAMPLE=0.
+# Mutation testing of the packages in MUTANTS: a seeded sample of each (SAMPLE=0: every mutant, which takes hours).
 MUTANTS ?= body posture linear multibody analysis
-SAMPLE ?= 40
+SAMPLE ?= 150
+SEED ?= 20261124
 mutants: setup-dev $(TOOLS)/ready
-	$(TOOLS)/bin/python tests/mutation/run.py --python $(abspath $(BIN))/python --sample $(SAMPLE) $(MUTANTS)
+	$(TOOLS)/bin/python tests/mutation/run.py --python $(abspath $(BIN))/python --sample $(SAMPLE) --seed $(SEED) $(MUTANTS)
 
 clean:
-	rm -rf $(VENV) $(TOOLS) build dist singletrack-output .mypy_cache .ruff_cache .import_linter_cache
+	rm -rf $(VENV) $(TOOLS) build dist singletrack-output .mypy_cache .ruff_cache .import_linter_cache docs/_build docs/auto_gallery docs/*/generated
+
+# Programs of single designs, traced from the closed form and shipped (data/programs).
+.PHONY: programs
+programs: setup-dev
+	$(BIN)/python -m singletrack.closed_form.generate
 
 # The page in the browser: programs traced from the equations, sources checked and built (needs npm), result shipped.
 .PHONY: page page-check page-programs page-speed

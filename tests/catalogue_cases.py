@@ -52,12 +52,17 @@ def load(
     return {"name": name, "mass": mass, "x": x, "z": z, "on": on, "length": length, "width": width, "height": height}
 
 
+def wide(grips: float) -> str:
+    """Return a handlebar's width: the source has the distance between the grips, that of the hands (Moore 2012)."""
+    return f"{grips + 0.05} +/- 0.04 m"
+
+
 #: The Davis instrumented bicycle: direct-drive hub motor, battery of 2.8 kg, netbook on the carrier, 23 mm tyres,
 #: rider's harness on an arm with a chest beam, plates for the knees on the top tube, torque sensor on the steer axis
 #: (Moore 2012, chapter 9). Where masses and places are not told there, they are as wide as that leaves them.
 _RIGID = {
     "bar": "city",
-    "bar_width": 0.535,
+    "bar_width": wide(0.535),
     "wheel_size": "23-622",
     "with_parts": ["rear motor", "diamond", "carrier"],
     "without_parts": [*(part for part in _CITY if part != "carrier"), "suspension fork"],
@@ -78,6 +83,30 @@ _KOOIJMAN = {
     "loads": [
         load("computer", "4 +/- 2 kg", "-0.05 +/- 0.15 m", "-0.85 +/- 0.1 m", (0.35, 0.2, 0.15)),
         load("trainer wheels", "3 +/- 1.5 kg", "0.35 +/- 0.2 m", "-0.35 +/- 0.15 m", (0.2, 1.2, 0.2)),
+    ],
+}
+
+
+#: Gazelle Grenoble, step-through, made a prototype with a motor in the head tube (2024): motor at the crank, battery in
+#: the down tube. Geometry with the deviations that were measured; places of the rest as wide as that leaves them.
+_GAZELLE = {
+    "chain_stay_length": "0.48 +/- 0.005 m",
+    "bottom_bracket_height": "0.30 +/- 0.005 m",
+    "seat_tube_length": "0.54 +/- 0.005 m",
+    "saddle_height": "0.81 +/- 0.007 m",
+    "seat_tube_angle": "1.2165 +/- 0.01 rad",
+    "bar": "city",
+    "bar_width": wide(0.53),
+    # 0.93 m from the front hub, 1.11 m from the rear hub.
+    "grip_x": 0.719,
+    "grip_height": 1.195,
+    "with_parts": ["low step", *(part for part in _CITY if part not in {"basket", "chain case"})],
+    "without_parts": ["basket", "rear motor", "front motor"],
+    "loads": [
+        load("motor", "3.2 +/- 0.3 kg", "0.45 +/- 0.03 m", "-0.31 +/- 0.03 m", (0.2, 0.2, 0.2)),
+        load("battery", "2.9 +/- 0.4 kg", "0.67 +/- 0.06 m", "-0.50 +/- 0.06 m", (0.3, 0.08, 0.3)),
+        load("steer motor", "2.5 +/- 1.2 kg", "0.85 +/- 0.06 m", "-0.85 +/- 0.1 m", (0.15, 0.12, 0.2)),
+        load("electronics", "3 +/- 1.5 kg", "0.2 +/- 0.3 m", "-0.75 +/- 0.15 m", (0.3, 0.2, 0.2)),
     ],
 }
 
@@ -121,7 +150,7 @@ def told(bicycle: Bicycle) -> dict[str, Any]:
 def case(name: str) -> Case:
     if name in {"stratos", "browser"}:
         bar = {"stratos": "flat", "browser": "city"}[name]
-        return Case(name, load_bicycle(name), {"bar": bar, "bar_width": 0.58})
+        return Case(name, load_bicycle(name), {"bar": bar, "bar_width": wide(0.58)})
     if name == "benchmark":
         # Made up, with its rider lumped into the rear frame: that is not a bicycle's frame to estimate.
         bicycle = load_bicycle(name)
@@ -129,11 +158,17 @@ def case(name: str) -> Case:
         return Case(name, bicycle, {"rear_frame_mass": None}, frame)
     if name == "kooijman-2008":
         return Case(name, load_bicycle(name), _KOOIJMAN)
+    if name == "gazelle":
+        bicycle = load_bicycle(str(OWN / "GazelleBenchmark.txt"))
+        uncertain = {"trail": "m", "steer_axis_tilt": "rad", "wheel_base": "m"}
+        deviations = bicycle.standard_deviations
+        geometry = {n: f"{getattr(bicycle, n)} +/- {deviations[n]} {unit}" for n, unit in uncertain.items()}
+        return Case(name, bicycle, geometry | _GAZELLE)
     folder = SHARED if name == "rigid" else OWN
     path = folder / f"{name.capitalize()}Measured.txt"
     sheets = {
         "rigid": _RIGID,
-        "crescendo": {"bar": "city", "bar_width": 0.56, "with_parts": ["suspension fork"]},
+        "crescendo": {"bar": "city", "bar_width": wide(0.56), "with_parts": ["suspension fork"]},
         "fisher": {
             "bar": "flat",
             "wheel_size": "54-559",
@@ -152,6 +187,35 @@ def case(name: str) -> Case:
         },
     }
     return Case(name, read_measured(path.read_text(encoding="utf-8"), str(path)).bicycle, sheets[name])
+
+
+#: Half of what is between the drop-outs, in m; least width (m) and mass (kg) of a handlebar; half of a saddle.
+_HALF_HUB = {"front": 0.05, "rear": 0.0675}
+_BAR, _SADDLE = (0.4, 0.25), 0.08
+
+
+def impossible(made: Case) -> set[str]:
+    """Return parameters that no distribution of mass can have, as (Ixx + Izz - Iyy) / 2 = sum m y^2.
+
+    A wheel's mass is between the drop-outs; a front frame has a handlebar, and its grips where they were measured; a
+    frame without cranks and pedals is as wide as its saddle.
+    """
+    b, found = made.measured, set()
+    for end, half in _HALF_HUB.items():
+        mass, across, about = (getattr(b, f"{end}_wheel_{part}") for part in ("mass", "inertia_xx", "inertia_yy"))
+        if across - about / 2 > mass * half**2:
+            found.add(f"{end}_wheel_inertia_xx")
+        xx, yy, zz = (getattr(b, f"{end}_frame_inertia_{part}") for part in ("xx", "yy", "zz"))
+        y2, x2 = (xx + zz - yy) / 2, (yy + zz - xx) / 2
+        moments = {f"{end}_frame_inertia_{part}" for part in ("xx", "yy", "zz")}
+        if end == "front":
+            found |= moments if y2 < _BAR[1] * _BAR[0] ** 2 / 12 else set()
+            arm = made.sheet.get("grip_x", told(b).get("grip_x"))
+            if arm is not None and x2 < 0.2 * (arm - b.front_frame_x) ** 2:
+                found |= {*moments, "front_frame_inertia_xz"}
+        elif "pedals" in made.sheet.get("without_parts", ()) and not made.sheet.get("loads"):
+            found |= moments if y2 > b.rear_frame_mass * _SADDLE**2 else set()
+    return found
 
 
 def weave_speeds(made: Case, rider: Rider | None) -> tuple[float, float, float]:

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import re
-import shlex
-import sys
+import webbrowser
 from pathlib import Path
 from typing import Any
 
 import pytest
+from PIL import Image, ImageSequence
 
-from singletrack.commands import app as cli
+from page_files import run_command
 from singletrack.reproduce.cases import paper_cases
 from singletrack.reproduce.measured import measured_case
 from singletrack.reproduce.statements import check_statements
@@ -20,27 +20,36 @@ COMMANDS = [
     line.partition("#")[0].strip()
     for block in re.findall(r"```sh\n(.*?)```", README.read_text(), re.DOTALL)
     for line in block.splitlines()
-    # All but those that take the user's own files.
-    if line.startswith("singletrack ") and not re.search(r"MEASUREMENTS|STUDY|RECORD|FILE\.dat", line)
+    if line.startswith("singletrack ")
 ]
 
 
 @pytest.mark.parametrize("command", COMMANDS)
 def test_commands(command, monkeypatch, capsys, tmp_path):
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr(sys, "argv", shlex.split(command.partition(">")[0]))
-    with pytest.raises(SystemExit) as stop:
-        cli.main()
-    assert stop.value.code == 0
-    assert capsys.readouterr().out
+    monkeypatch.setattr(webbrowser, "open", lambda *_: True)
+    run_command(command, monkeypatch, capsys)
 
 
-def test_python():
+def test_python(monkeypatch, tmp_path):
+    monkeypatch.chdir(tmp_path)
     block = "\n".join(re.findall(r"```python\n(.*?)```", README.read_text(), re.DOTALL))
     names: dict[str, Any] = {}
     exec(compile(block, str(README), "exec"), names)  # noqa: S102  # our own README
-    assert names["trails"].M.shape == (1000, 2, 2)
-    assert names["motion"].sizes["time"] == 501
+    assert names["model"].M.shape == (2, 2)
+    assert (tmp_path / "stratos.png").stat().st_size > 10_000
+
+
+def test_it_fits_a_screen():
+    assert len(README.read_text().splitlines()) <= 65
+
+
+def test_the_picture_moves():
+    file = README.parent / "docs" / "figures" / "weave.gif"
+    with Image.open(file) as picture:
+        frames = sum(1 for _ in ImageSequence.Iterator(picture))
+    assert frames > 20
+    assert file.stat().st_size < 500_000
 
 
 def test_verdicts():

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from singletrack import InputError, PostureError, load_bicycle, load_rider
 from singletrack.body import rider_segments, skeleton
-from singletrack.mechanics import Body, combine
+from singletrack.mechanics import RigidBody, combine
 from singletrack.mechanics.solids import cylinder_inertia, prism_inertia, sphere_inertia
 
 RIDER = load_rider("rider-a")
@@ -73,7 +73,9 @@ def test_combining_bodies(seed):
     """Order and grouping do not matter, momentum is kept, and the inertia is one that a body can have."""
     rng = np.random.default_rng(seed)
     bodies = [
-        Body(rng.uniform(0.1, 5), rng.normal(size=3), cylinder_inertia(1.0, *rng.uniform(0.1, 1, 2), random_axis(rng)))
+        RigidBody(
+            rng.uniform(0.1, 5), rng.normal(size=3), cylinder_inertia(1.0, *rng.uniform(0.1, 1, 2), random_axis(rng))
+        )
         for _ in range(4)
     ]
     whole = combine(bodies)

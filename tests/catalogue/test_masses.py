@@ -2,13 +2,19 @@
 
 from __future__ import annotations
 
+import re
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from singletrack import InputError, OddityWarning, catalogue
+from singletrack.catalogue.geometry import resolve
 from singletrack.catalogue.masses import Prior, Weighing, sample_masses
+from singletrack.catalogue.points import points_of
 from singletrack.catalogue.shapes import assemble, place, wheel_inertias
-from singletrack.catalogue.tables import components
+from singletrack.catalogue.sheet import Sheet
+from singletrack.catalogue.tables import components, entries, sources
 
 BASE = {"head_angle": "70 deg", "fork_offset": "50 mm", "wheel_size": "37-622", "wheel_base": "1.08 m"}
 
@@ -111,6 +117,53 @@ def test_every_component_has_a_source_and_fits_a_shape():
         assert (component.mass is None) != (component.tube is None), component.name
 
 
+KINDS = ("published", "weighed", "dimensions", "judgement")
+
+
+def test_every_source_says_of_which_kind_it_is():
+    """And components name one that there is; numbers of documents name the document."""
+    assert {component.form["source"] for component in components()} == set(sources())
+    for key, text in sources().items():
+        kind = text.partition(":")[0]
+        assert set(kind.split(" and ")) <= set(KINDS), key
+        assert re.search(r"\d", text), key
+    typical = [entry for entry in entries().values() if entry.typical]
+    assert all(entry.source.partition(":")[0] in KINDS for entry in typical)
+
+
+def test_a_component_may_be_missing_where_its_kind_is():
+    """Of one choice of two kinds: brake levers are on nine bars of ten of one kind, on none of the other."""
+    made = replace(
+        prior([1.0, 1.0, 1.0], [0.1, 0.1, 0.1], probability=[0.5, 0.5, 0.5]),
+        choices=("bar", "bar", "bar"),
+        kinds=("flat", "flat", "drop"),
+        fitted=np.array([1.0, 0.9, 1.0]),
+    )
+    masses, _ = sample_masses(made, [Weighing("all", np.arange(3))], 20_000, np.random.default_rng(0))
+    flat, levers, drop = (masses > 0).T
+    assert not (flat & drop).any()
+    assert not (levers & drop).any()
+    assert levers[flat].mean() == pytest.approx(0.9, abs=0.01)
+
+
+def test_brake_levers_are_there_on_any_bar_or_on_none():
+    for bar in ("flat", "city"):
+        some = catalogue.estimate(200, **BASE, bar=bar, with_parts=["brake levers"])
+        none = catalogue.estimate(200, **BASE, bar=bar, without_parts=["brake levers"])
+        assert some.masses["front frame: brake levers"][0] > 0.15
+        assert "front frame: brake levers" not in none.masses
+        assert none.bicycle.front_frame_inertia_xx < some.bicycle.front_frame_inertia_xx
+
+
+def test_legs_that_slide_are_parallel_to_the_steer_axis():
+    points = points_of(resolve(Sheet.of(BASE), lambda: np.zeros(2)))
+    axis = points["steerer top"][0] - points["crown"][0]
+    leg = points["crown ahead"][0] - points["front drop-out"][0]
+    sin = abs(axis[0] * leg[2] - axis[2] * leg[0]) / np.hypot(axis[0], axis[2]) / np.hypot(leg[0], leg[2])
+    assert sin < 0.03  # the drop-outs have a fifth of the offset
+    assert points["crown ahead"][0, 0] > points["crown"][0, 0]
+
+
 def test_more_that_is_known_leaves_less_uncertain():
     vague = catalogue.bicycle(**BASE).standard_deviations
     known = catalogue.bicycle(
@@ -168,6 +221,14 @@ def test_a_load_is_where_it_is_said_to_be():
 def test_what_is_wrong_with_masses_is_told(entries, text):
     with pytest.raises(InputError, match=text):
         catalogue.bicycle(**BASE, **entries)
+
+
+def test_a_load_weighs_what_is_told():
+    """Whatever the rest weighs: a battery on the scale is not light because the bicycle is."""
+    battery = {"name": "battery", "mass": "2.8 kg", "x": "0.1 m", "z": "-0.75 m"}
+    for total in ("16 kg", "24 kg"):
+        made = catalogue.estimate(200, **BASE, total_mass=total, loads=[battery])
+        assert made.masses["rear frame: battery"] == pytest.approx((2.8, 0.0), abs=1e-4)
 
 
 def test_an_odd_mass_is_said():

@@ -88,9 +88,9 @@ def test_what_tyres_refuse():
 
 
 def test_the_program_and_the_tables_of_the_page(capsys):
-    page = (Path(__file__).parents[2] / "docs" / "soft.md").read_text(encoding="utf-8")
+    page = (Path(__file__).parents[2] / "docs" / "theory" / "flexible.md").read_text(encoding="utf-8")
     (program,) = re.findall(r"```python\n(.*?)```", page, flags=re.DOTALL)
-    exec(compile(program, "soft.md", "exec"), {})  # noqa: S102  # our own page
+    exec(compile(program, "flexible.md", "exec"), {})  # noqa: S102  # our own page
     off, on = capsys.readouterr().out.splitlines()
     assert "0.98" in off or "0.99" in off
     assert "-2.2" in on

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -93,4 +94,62 @@ def test_matrices_as_an_aim(capsys, tmp_path):
 def test_what_is_wrong_is_said(arguments, words):
     with pytest.raises(InputError) as caught:
         run(["design", "benchmark", *arguments])
+    assert words in str(caught.value)
+
+
+SHEET = """
+kind = "sheet"
+head_angle = "69 deg"
+fork_offset = "50 mm"
+wheel_size = "37-622"
+wheel_base = "1.10 m"
+"""
+
+
+@pytest.fixture
+def sheet(tmp_path):
+    file = tmp_path / "mine.toml"
+    file.write_text(SHEET)
+    return str(file)
+
+
+def test_a_sheet_is_searched_by_its_own_entries(capsys, sheet, tmp_path):
+    found = tmp_path / "found.toml"
+    arguments = ["--aim", "widest", "--vary", "head_angle=66deg:72deg", "--vary", "stem_length=40mm:130mm"]
+    kept = ["--keep", "front_clearance=300mm:", "--starts", "2", "-o", str(found)]
+    assert run(["design", sheet, *arguments, *kept]) == 0
+    printed = capsys.readouterr().out
+    assert "head_angle" in printed
+    assert "mine: minus the widest stable range" in printed
+    bicycle = load_bicycle(str(found))
+    assert np.radians(18) - 1e-9 <= bicycle.steer_axis_tilt <= np.radians(24) + 1e-9
+    assert bicycle.rear_frame_inertia_xx > 0.1
+
+
+def test_a_sheet_stands_for_its_bicycle(capsys, sheet):
+    assert run(["critical-speeds", sheet, "--json"]) == 0
+    one = json.loads(capsys.readouterr().out)
+    assert run(["new", sheet]) == 0
+    bicycle = Path(sheet).with_name("made.toml")
+    bicycle.write_text(capsys.readouterr().out)
+    assert run(["critical-speeds", str(bicycle), "--json"]) == 0
+    assert json.loads(capsys.readouterr().out) == one
+    assert run(["sensitivity", sheet, "--json"]) == 0
+    assert "fork_offset" in json.loads(capsys.readouterr().out)["parameters"]
+
+
+@pytest.mark.parametrize(
+    ("text", "arguments", "words"),
+    [
+        (SHEET, ["--vary", "trail=20mm:80mm"], "trail: cannot vary, it follows"),
+        (SHEET, ["--vary", "head_angle=60deg:75deg", "--set", "trail=0.05"], "change the sheet"),
+        (SHEET + 'trail = "20 mm"\n', ["--vary", "head_angle=60deg:75deg"], "trail contradicts itself"),
+        (SHEET + 'fork_ofset = "1 mm"\n', ["--vary", "head_angle=60deg:75deg"], "line 7: unknown entry 'fork_ofset'"),
+    ],
+)
+def test_what_is_wrong_with_a_sheet_is_said(tmp_path, text, arguments, words):
+    file = tmp_path / "sheet.toml"
+    file.write_text(text)
+    with pytest.raises(InputError) as caught:
+        run(["design", str(file), "--aim", "widest", *arguments])
     assert words in str(caught.value)

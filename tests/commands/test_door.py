@@ -16,7 +16,8 @@ from singletrack.version import __version__
 
 COMMANDS = Path(door.__file__).parent
 #: Modules of the room that are no commands.
-SHARED = {"figures", "__init__", "app", "door", "model", "model_options", "options", "printing", "writing"}
+SHARED = {"__init__", "app", "door", "figures", "model", "model_options", "options"}
+SHARED |= {"plain", "printing", "sheets", "writing"}
 
 
 def test_every_command_is_a_module_and_every_module_a_command():

@@ -63,6 +63,21 @@ def test_engines_agree(run, command):
             np.testing.assert_allclose(two[key], one[key], rtol=1e-9, atol=1e-12)
 
 
+def test_what_is_never_stable_says_what_falls(run):
+    """The torso falls whatever the speed; the growth told is that of the eigenvalues."""
+    arguments = ("critical-speeds", "stratos", "--rider", "rider-a", "--posture", "leaned", "--torso-lean")
+    (found,) = json.loads(run(*arguments, "--json")[1])["unstable"]
+    assert (found["mode"], found["oscillates"]) == ("torso lean", False)
+    model = coefficients(load_bicycle("stratos"), load_rider("rider-a"), "leaned", torso_lean=True)
+    largest = model.eigenvalues(np.linspace(0.1, 10.0, 100)).real.max(axis=-1)
+    np.testing.assert_allclose(found["growth"], [largest.min(), largest.max()], rtol=1e-9)
+    words = f"torso lean falls at every speed (+{largest.min():.2f} to +{largest.max():.2f} 1/s below 10 m/s)"
+    assert words in " ".join(run(*arguments)[1].split())
+    sprung = json.loads(run(*arguments, "--spring", "torso lean=2000 N*m/rad", "--json")[1])
+    assert sprung["stable_ranges"]
+    assert "unstable" not in sprung
+
+
 def test_coefficients_table(run):
     code, out, _ = run("coefficients", "stratos", "--rider", "rider-a", "--posture", "leaned")
     assert code == 0
@@ -306,7 +321,7 @@ def test_no_traceback_reaches_a_user(run, monkeypatch):
     def fail(_):
         raise ZeroDivisionError("what nobody thought of")
 
-    monkeypatch.setattr("singletrack.commands.model.load_bicycle", fail)
+    monkeypatch.setattr("singletrack.commands.sheets.load_bicycle", fail)
     code, out, err = run("coefficients", "stratos")
     assert (code, out) == (1, "")
     assert "internal error, please report it: ZeroDivisionError: what nobody thought of" in err

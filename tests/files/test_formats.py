@@ -17,7 +17,7 @@ from singletrack.files.text import read_bicycle_text, write_bicycle_text
 from singletrack.files.text_lines import read_values
 from singletrack.files.uncertain import format_number, parse_number
 from singletrack.files.yeadon import read_configuration
-from singletrack.mechanics import Body, combine
+from singletrack.mechanics import RigidBody, combine
 from singletrack.mechanics.rigid import PlanarBody
 from singletrack.parameters.bodies import with_rigid_rider
 from singletrack.parameters.symbols import NAMES, SYMBOLS
@@ -235,7 +235,7 @@ def test_a_rigid_rider_is_lumped_as_rigid_bodies_are():
     both = with_rigid_rider(bicycle, rider)
 
     def body(mass, x, z, xx, yy, zz, xz):
-        return Body(mass, np.array([x, 0.0, z]), np.array([[xx, 0, xz], [0, yy, 0], [xz, 0, zz]]))
+        return RigidBody(mass, np.array([x, 0.0, z]), np.array([[xx, 0, xz], [0, yy, 0], [xz, 0, zz]]))
 
     def frame(b):
         parts = ("mass", "x", "z", "inertia_xx", "inertia_yy", "inertia_zz", "inertia_xz")

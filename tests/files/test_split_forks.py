@@ -83,7 +83,8 @@ def test_the_peers_split_bicycle_follows_from_its_measurements(shared_data):
     assert dict(found.bicycle.extras) == pytest.approx(dict(peer.extras), rel=1e-10)
     assert set(peer.extras) == set(SPLIT_SYMBOLS)
     assert set(found.lines) == {"rear_frame", "handlebar", "fork"}
-    ratios = {n: found.bicycle.standard_deviations[n] / sd for n, sd in peer.standard_deviations.items() if sd > 0}
+    theirs = {name: float(sd) for name, sd in peer.standard_deviations.items()}
+    ratios = {name: float(found.bicycle.standard_deviations[name]) / sd for name, sd in theirs.items() if sd > 0}
     # The peer takes the steer axis for independent of the lengths it follows from; what depends on both differs.
     on_both = {"trail", "wheel_base", "front_frame_x", "xG", "xS"}
     assert {name for name, ratio in ratios.items() if abs(ratio - 1) > 1e-3} == on_both

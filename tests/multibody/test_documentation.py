@@ -6,7 +6,7 @@ import re
 from pathlib import Path
 from typing import Any
 
-PAGE = Path(__file__).parents[2] / "docs" / "multibody.md"
+PAGE = Path(__file__).parents[2] / "docs" / "theory" / "engine.md"
 
 
 def test_the_programs_of_the_page_run(capsys: Any) -> Any:

@@ -97,7 +97,7 @@ def test_critical_speeds_on_the_map_are_those_of_each_design():
     found = stability_map(design, "trail", np.linspace(0.02, 0.12, 11))
     figure = map_figure(found, 1.0, "trail (m)", 10.0)
     weave = next(line for line in figure.axes[0].lines if len(line.get_xdata()) == 11)
-    for speed, trail in zip(weave.get_xdata(), weave.get_ydata(), strict=True):
+    for speed, trail in zip(*np.asarray(weave.get_data()), strict=True):
         own = critical_speeds(design.changed({"trail": trail}).model())
         assert own.weave == pytest.approx([speed], rel=1e-12)
 

@@ -1,4 +1,4 @@
-"""What docs/sweep.md shows is a study that loads."""
+"""What docs/howto/sweep.md shows is a study that loads."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from pathlib import Path
 
 from singletrack.sweep import load_study
 
-PAGE = Path(__file__).parents[2] / "docs" / "sweep.md"
+PAGE = Path(__file__).parents[2] / "docs" / "howto" / "sweep.md"
 
 
 def test_the_study_of_the_page_loads(tmp_path: Path) -> None:

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from singletrack.analysis.designs import Design
-    from singletrack.arrays import Array
+    from singletrack.arrays import ArrayLike
 
 __all__ = ["Comparison", "Measure", "compare"]
 
@@ -80,7 +80,7 @@ class Comparison:
         }
 
 
-def compare(designs: Sequence[Design], speeds: Array = (5.0,)) -> Comparison:
+def compare(designs: Sequence[Design], speeds: ArrayLike = (5.0,)) -> Comparison:
     """Return designs side by side.
 
     Parameters

@@ -18,7 +18,7 @@ from singletrack.posture import Options
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from singletrack.arrays import Array
+    from singletrack.arrays import Array, ArrayLike
     from singletrack.parameters import Bicycle, Rider
 
 __all__ = ["Derivatives", "derivatives", "derivatives_of", "shifted"]
@@ -50,7 +50,7 @@ class Derivatives:
     matrices: dict[str, np.ndarray]
     gravity: np.ndarray
 
-    def _pencil(self, speeds: Array, roots: Array) -> tuple[np.ndarray, np.ndarray]:
+    def _pencil(self, speeds: ArrayLike, roots: Array) -> tuple[np.ndarray, np.ndarray]:
         """Return what is proportional to the adjugate of P(s), and with it the slope d det P / ds, for s (...).
 
         P(s) = M s² + (C0 + v C1) s + S0 + g K0 + v² K2. With more than two freedoms: the outer product of the vectors
@@ -66,7 +66,7 @@ class Derivatives:
             adjugate = np.conj(right[..., -1, :])[..., :, None] * np.conj(left[..., :, -1])[..., None, :]
         return adjugate, np.einsum("...ij,...ji->...", adjugate, 2 * m.M * s + damping)
 
-    def eigenvalues(self, speeds: Array, roots: Array) -> np.ndarray:
+    def eigenvalues(self, speeds: ArrayLike, roots: Array) -> np.ndarray:
         """Return the derivatives (..., k) of roots (...) at speeds broadcastable to (...), in 1/s per SI unit.
 
         From det P(s) = 0: ds/dp = -tr(adj P dP/dp) / tr(adj P dP/ds). Infinite or NaN where roots meet.
@@ -82,7 +82,7 @@ class Derivatives:
             found: np.ndarray = -np.einsum("...ij,...kji->...k", adjugate, change) / slope[..., None]
         return found
 
-    def eigenvalues_by_speed(self, speeds: Array, roots: Array) -> np.ndarray:
+    def eigenvalues_by_speed(self, speeds: ArrayLike, roots: Array) -> np.ndarray:
         """Return ds/dv (...) of roots (...) at speeds broadcastable to (...), in 1/m."""
         adjugate, slope = self._pencil(speeds, roots)
         v, s = np.asarray(speeds)[..., None, None], np.asarray(roots)[..., None, None]
@@ -91,7 +91,7 @@ class Derivatives:
             found: np.ndarray = -change / slope
         return found
 
-    def critical_speeds(self, speeds: Array, kind: str) -> np.ndarray:
+    def critical_speeds(self, speeds: ArrayLike, kind: str) -> np.ndarray:
         """Return the derivatives (n, k) of critical speeds (n,), in m/s per SI unit.
 
         Parameters

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
     import numpy as np
 
-    from singletrack.arrays import Array
+    from singletrack.arrays import Number
     from singletrack.model import LinearModel
 
 __all__ = ["Design"]
@@ -62,7 +62,7 @@ class Design:
         seated = None if rider is None else rider if sitting.fit is not None else rider.on(bicycle)
         return cls(bicycle, seated, sitting, title or bicycle.name or "bicycle")
 
-    def values(self) -> dict[str, Array]:
+    def values(self) -> dict[str, Number]:
         """Return every number that can be changed, in SI, each of shape (...).
 
         Of the bicycle, the rider and the posture: ``spring at JOINT``, ``damper at JOINT``, ``elbow angle``.
@@ -79,6 +79,12 @@ class Design:
         if self.rider is not None:
             known |= {name: p.unit for name, p in self.rider.descriptions().items()}
         return {name: known.get(name) or _unit_of_posture(name) for name in self.values()}
+
+    def deviations(self) -> dict[str, float]:
+        """Return the standard deviations of :meth:`values`, in SI, where there are."""
+        found = dict(self.bicycle.standard_deviations)
+        found |= {} if self.rider is None else self.rider.standard_deviations
+        return {name: float(deviation) for name, deviation in found.items()}
 
     def unit(self, name: str) -> str:
         """Return the SI unit of one parameter.
@@ -97,7 +103,7 @@ class Design:
             raise InputError(unknown_name("parameter", name, tuple(units)), parameters=(name,))
         return units[name]
 
-    def changed(self, changes: Mapping[str, Array]) -> Design:
+    def changed(self, changes: Mapping[str, Number]) -> Design:
         """Return the design, or a batch of designs, with some parameters of other values.
 
         Parameters
@@ -120,8 +126,8 @@ class Design:
             rider = rider.replace(**{name: v for name, v in changes.items() if name in theirs})
         return dataclasses.replace(self, bicycle=bicycle, rider=rider, options=self._options(changes))
 
-    def _options(self, changes: Mapping[str, Array]) -> Options:
-        def changed(prefix: str, values: Mapping[str, Array]) -> dict[str, Array]:
+    def _options(self, changes: Mapping[str, Number]) -> Options:
+        def changed(prefix: str, values: Mapping[str, Number]) -> dict[str, Number]:
             return {joint: changes.get(f"{prefix}{joint}", value) for joint, value in values.items()}
 
         springs, dampers = changed(_SPRING, self.options.springs), changed(_DAMPER, self.options.dampers)

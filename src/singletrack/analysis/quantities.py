@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from singletrack.analysis.designs import Design
-    from singletrack.arrays import Array
+    from singletrack.arrays import Array, Number
     from singletrack.parameters import Bicycle
 
 __all__ = ["QUANTITIES", "quantities_with_gradients", "quantity", "quantity_unit"]
@@ -47,7 +47,7 @@ def _mechanical_trail(bicycle: Bicycle) -> Array:
 
 
 #: Quantities that constraints may be put on: unit, meaning, function of a bicycle.
-QUANTITIES: dict[str, tuple[str, str, Callable[[Bicycle], Array]]] = {
+QUANTITIES: dict[str, tuple[str, str, Callable[[Bicycle], Number]]] = {
     "reach": ("m", "grips ahead of the crank axle", _reach),
     "grip_height": ("m", "grips above the ground", _grip_height),
     "front_clearance": (

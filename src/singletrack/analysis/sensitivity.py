@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from singletrack.analysis.designs import Design
-    from singletrack.arrays import Array
+    from singletrack.arrays import ArrayLike
     from singletrack.model import LinearModel
 
 __all__ = ["CHANGES", "KINDS", "Sensitivity", "sensitivity"]
@@ -124,7 +124,7 @@ class Sensitivity:
 def sensitivity(
     design: Design,
     kinds: Sequence[str] = ("critical speeds",),
-    speeds: Array = (),
+    speeds: ArrayLike = (),
     names: Sequence[str] = (),
     by: str = "step",
 ) -> Sensitivity:
@@ -202,9 +202,8 @@ def _changes(design: Design, names: tuple[str, ...], by: str) -> dict[str, float
         return {name: min(size, float(values[name])) if name in sprung else size for name, size in sizes.items()}
     if by == "percent":
         return {name: 0.01 * abs(float(values[name])) for name in wanted if values[name] != 0}
-    deviations = dict(design.bicycle.standard_deviations)
-    deviations |= {} if design.rider is None else design.rider.standard_deviations
-    found = {name: float(deviations[name]) for name in wanted if deviations.get(name, 0) > 0}
+    deviations = design.deviations()
+    found = {name: deviations[name] for name in wanted if deviations.get(name, 0) > 0}
     if not found:
         raise InputError("by deviation: no parameter has a standard deviation; rank by step or percent")
     return found

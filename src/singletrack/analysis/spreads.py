@@ -12,7 +12,7 @@ from singletrack.errors import InputError
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
-    from singletrack.arrays import Array
+    from singletrack.arrays import Array, Number
     from singletrack.model import LinearModel
     from singletrack.parameters import Bicycle, Rider
 
@@ -154,7 +154,7 @@ def parameter_covariance(
     return tuple(used), np.diag(np.square(list(used.values())))
 
 
-def _checked(deviations: Mapping[str, Array]) -> list[tuple[str, float]]:
+def _checked(deviations: Mapping[str, Number]) -> list[tuple[str, float]]:
     for name, deviation in deviations.items():
         if not np.isfinite(deviation) or deviation < 0:
             raise InputError(f"standard deviation of {name} = {deviation}, must be finite and zero or more")

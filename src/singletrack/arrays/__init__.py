@@ -1,13 +1,24 @@
 """Arrays on NumPy or JAX, vectors, and what is wrong with some designs of a batch."""
 
 from singletrack.arrays.faults import Fault, refuse_single, valid_mask
-from singletrack.arrays.namespace import Array, as_arrays, is_concrete, is_jax, namespace, require_double
+from singletrack.arrays.namespace import (
+    Array,
+    ArrayLike,
+    Number,
+    as_arrays,
+    is_concrete,
+    is_jax,
+    namespace,
+    require_double,
+)
 from singletrack.arrays.steps import complex_allowed, complex_steps
 from singletrack.arrays.vectors import cross, dot, matvec, skew, stack, unit_vector, vector
 
 __all__ = [
     "Array",
+    "ArrayLike",
     "Fault",
+    "Number",
     "as_arrays",
     "complex_allowed",
     "complex_steps",

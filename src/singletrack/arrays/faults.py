@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from singletrack.arrays.namespace import Array, is_concrete
+from singletrack.arrays.namespace import Array, Number, is_concrete
 from singletrack.errors import SingletrackError
 
 if TYPE_CHECKING:
@@ -49,9 +49,9 @@ class Fault:
     ('mass = -2 kg', 'mass = <mass> kg')
     """
 
-    bad: Array
+    bad: Array | bool
     text: str
-    values: Mapping[str, Array] = field(default_factory=dict)
+    values: Mapping[str, Number] = field(default_factory=dict)
     error: type[SingletrackError] = SingletrackError
     parameters: tuple[str, ...] = ()
     allowed: str = ""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import functools
 from typing import TYPE_CHECKING, Any
 
-from singletrack.arrays.namespace import Array, as_arrays, is_jax, namespace
+from singletrack.arrays.namespace import Array, Number, as_arrays, is_jax, namespace
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 __all__ = ["cross", "dot", "matvec", "skew", "stack", "unit_vector", "vector"]
 
 
-def vector(*components: Array) -> Array:
+def vector(*components: Number) -> Array:
     """Stack components of any broadcastable shapes into vectors, shape (..., n).
 
     >>> vector(1.0, 0.0, 2.0).tolist()
@@ -22,7 +22,7 @@ def vector(*components: Array) -> Array:
     return stack(components, -1)
 
 
-def stack(arrays: Sequence[Array], axis: int) -> Array:
+def stack(arrays: Sequence[Number], axis: int) -> Array:
     """Stack arrays of any broadcastable shapes along a new axis, counted from the end (-1: last).
 
     Parameters
@@ -44,7 +44,7 @@ def stack(arrays: Sequence[Array], axis: int) -> Array:
     return result.transpose(_first_to(len(shape) + 1, len(shape) + 1 + axis)) if shape else result
 
 
-def _common(xp: Any, arrays: Sequence[Array]) -> tuple[tuple[int, ...], Any]:
+def _common(xp: Any, arrays: Sequence[Number]) -> tuple[tuple[int, ...], Any]:
     """Return the shape to which arrays and numbers broadcast, and the type that holds them, at least double."""
     shape: tuple[int, ...] = ()
     alike, kind = True, xp.float64

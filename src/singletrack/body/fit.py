@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from singletrack.arrays import Array, Fault, as_arrays, is_concrete, refuse_single, vector
+from singletrack.arrays import Array, Fault, Number, as_arrays, is_concrete, refuse_single, vector
 from singletrack.body.skeleton import frame_points, require_geometry, skeleton
 from singletrack.errors import InputError, PostureError
 
@@ -20,7 +20,7 @@ __all__ = ["elbow_angle", "fit", "fitted"]
 _LEAST = 1e-3
 
 
-def fit(bicycle: Bicycle, rider: Rider, elbow: Array = 150 * pi / 180) -> Rider:
+def fit(bicycle: Bicycle, rider: Rider, elbow: Number = 150 * pi / 180) -> Rider:
     """Return a rider with the forward lean angle at which the hands reach the grips with a wanted elbow angle.
 
     Parameters
@@ -85,7 +85,7 @@ def elbow_angle(bicycle: Bicycle, rider: Rider) -> Array:
     return xp.acos((upper**2 + lower**2 - square) / (2 * upper * lower))
 
 
-def fitted(bicycle: Bicycle, rider: Rider, elbow: Array) -> tuple[Rider, tuple[Fault, ...]]:
+def fitted(bicycle: Bicycle, rider: Rider, elbow: Number) -> tuple[Rider, tuple[Fault, ...]]:
     """Return the rider of :func:`fit`, with the faults of designs of a batch that cannot be fitted.
 
     Their lean is that which comes nearest.

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from singletrack.arrays import Array, as_arrays, cross, dot, is_concrete, unit_vector, vector
+from singletrack.arrays import Array, Number, as_arrays, cross, dot, is_concrete, unit_vector, vector
 from singletrack.arrays.faults import Fault
 from singletrack.errors import PostureError
 
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 __all__ = ["elbow_aside", "other_leg", "two_link_joint"]
 
 
-def other_leg(xp: Any, hypotenuse: Array, leg: Array) -> Array:
+def other_leg(xp: Any, hypotenuse: Number, leg: Number) -> Array:
     """Return the other leg (...) of a right triangle, NaN where there is none.
 
     Parameters
@@ -27,7 +27,7 @@ def other_leg(xp: Any, hypotenuse: Array, leg: Array) -> Array:
 
 
 def two_link_joint(
-    start: Array, end: Array, first: Array, second: Array, bend: float, limb: str
+    start: Array, end: Array, first: Number, second: Number, bend: float, limb: str
 ) -> tuple[Array, list[Fault]]:
     """Return the joint (..., 3) of a limb of two links in the x-z plane, bent to one side, and where it fails.
 
@@ -78,7 +78,7 @@ def elbow_aside(shoulder: Array, grip: Array, rider: Rider) -> tuple[Array, Arra
     return shoulder + along[..., None] * ahead + aside[..., None] * down, out, faults
 
 
-def _two_links(distance: Array, first: Array, second: Array, limb: str) -> tuple[Array, Array, list[Fault]]:
+def _two_links(distance: Number, first: Number, second: Number, limb: str) -> tuple[Array, Array, list[Fault]]:
     """Return how far along a distance the joint of two links lies, and how far aside, and where they do not reach."""
     xp, (distance, first, second) = as_arrays(distance, first, second)
     # No angles, so that it is cheap and analytic.

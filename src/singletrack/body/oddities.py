@@ -9,15 +9,16 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 from weakref import WeakKeyDictionary, WeakSet
 
-from singletrack.body.reach import seat_oddities
+from singletrack.body.reach import reach_oddities, seat_oddities
 from singletrack.body.skeleton import frame_faults, frame_points
 from singletrack.errors import OddityWarning, SingletrackError
 from singletrack.parameters import Bicycle
 from singletrack.parameters.plausibility import Oddity, oddities
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Mapping
 
+    from singletrack.arrays import Number
     from singletrack.parameters import Rider
 
 __all__ = ["frame_oddities", "warn_of_oddities"]
@@ -28,7 +29,9 @@ _SAID: WeakSet[Bicycle | Rider] = WeakSet()
 _SAID_TOGETHER: WeakKeyDictionary[Bicycle, WeakSet[Rider]] = WeakKeyDictionary()
 
 
-def warn_of_oddities(record: Bicycle | Rider, rider: Rider | None = None) -> None:
+def warn_of_oddities(
+    record: Bicycle | Rider, rider: Rider | None = None, shares: Mapping[str, Number] | None = None
+) -> None:
     """Warn of what looks odd about a bicycle or rider, and about a rider's reach on a bicycle (:class:`OddityWarning`).
 
     Each record is warned about once, and each rider on a bicycle once. A batch of designs is left alone, and so is what
@@ -39,6 +42,9 @@ def warn_of_oddities(record: Bicycle | Rider, rider: Rider | None = None) -> Non
     record : Bicycle or Rider
     rider : Rider, optional
         Seated on the bicycle.
+    shares : mapping of str to number, optional
+        How far the limbs of a single rider are stretched, where that is known already
+        (:func:`~singletrack.body.reach.reach`).
 
     Examples
     --------
@@ -52,7 +58,7 @@ def warn_of_oddities(record: Bicycle | Rider, rider: Rider | None = None) -> Non
         _SAID.add(record)
         _say(record.name, (*oddities(record), *(frame_oddities(record) if isinstance(record, Bicycle) else ())))
     if isinstance(record, Bicycle) and rider is not None and record.is_single and rider.is_single:
-        _warn_of_rider(record, rider)
+        _warn_of_rider(record, rider, shares)
 
 
 def frame_oddities(bicycle: Bicycle) -> tuple[Oddity, ...]:
@@ -74,7 +80,7 @@ def frame_oddities(bicycle: Bicycle) -> tuple[Oddity, ...]:
     tilt = float(bicycle.steer_axis_tilt)
     drop = bicycle.rear_wheel_radius - bicycle.bottom_bracket_height
     offset = bicycle.front_wheel_radius * sin(tilt) - bicycle.trail * cos(tilt)
-    if bicycle.chain_stay_length >= abs(drop) and bicycle.fork_length >= abs(offset):
+    if bicycle.chain_stay_length >= abs(float(drop)) and bicycle.fork_length >= abs(float(offset)):
         return ()
     faults = [fault for fault in frame_faults(frame_points(bicycle), bicycle) if fault.bad]
     return tuple(
@@ -88,14 +94,14 @@ def frame_oddities(bicycle: Bicycle) -> tuple[Oddity, ...]:
     )
 
 
-def _warn_of_rider(bicycle: Bicycle, rider: Rider) -> None:
+def _warn_of_rider(bicycle: Bicycle, rider: Rider, shares: Mapping[str, Number] | None) -> None:
     on_it = _SAID_TOGETHER.setdefault(bicycle, WeakSet())
     if rider in on_it:
         return
     on_it.add(rider)
     try:
         seated = rider.on(bicycle)
-        found = seat_oddities(bicycle, seated)
+        found = seat_oddities(bicycle, seated) if shares is None else reach_oddities(shares)
     except SingletrackError:  # who cannot sit or does not reach is told so when the model is made
         return
     if rider not in _SAID:

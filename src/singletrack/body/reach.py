@@ -9,9 +9,12 @@ from singletrack.body.skeleton import Skeleton, skeleton
 from singletrack.parameters.plausibility import Oddity
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from singletrack.arrays import Number
     from singletrack.parameters import Bicycle, Rider
 
-__all__ = ["reach", "seat_oddities"]
+__all__ = ["reach", "reach_oddities", "seat_oddities"]
 
 # The paper's Rider A rides the Stratos with arms stretched to 0.9946 of their length.
 _STRETCHED = 0.997
@@ -60,6 +63,17 @@ def seat_oddities(bicycle: Bicycle, rider: Rider) -> tuple[Oddity, ...]:
     >>> seat_oddities(load_bicycle("stratos"), load_rider("rider-a"))
     ()
     """
+    return reach_oddities(reach(skeleton(bicycle, rider), rider))
+
+
+def reach_oddities(shares: Mapping[str, Number]) -> tuple[Oddity, ...]:
+    """Return what looks odd about how far limbs are stretched.
+
+    Parameters
+    ----------
+    shares : mapping of str to number
+        Of a single design, as :func:`reach` gives them.
+    """
     targets = {"arm": "grip", "leg": "pedal"}
     return tuple(
         Oddity(
@@ -68,6 +82,6 @@ def seat_oddities(bicycle: Bicycle, rider: Rider) -> tuple[Oddity, ...]:
             float(share),
             f"a limb stretched to at most {_STRETCHED:.1%} of its length",
         )
-        for limb, share in reach(skeleton(bicycle, rider), rider).items()
+        for limb, share in shares.items()
         if share > _STRETCHED
     )

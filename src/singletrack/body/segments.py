@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from math import pi
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from singletrack.arrays import Array, as_arrays, dot, unit_vector
-from singletrack.mechanics.rigid import Body, combine
+from singletrack.arrays import Array, Number, as_arrays, dot, unit_vector
+from singletrack.mechanics.rigid import RigidBody, combine
 from singletrack.mechanics.solids import cylinder_inertia, gyration_inertia, prism_inertia, sphere_inertia
 
 if TYPE_CHECKING:
@@ -22,7 +22,7 @@ __all__ = ["Segment", "rider_segments"]
 
 
 @dataclass(frozen=True, eq=False)
-class Segment(Body):
+class Segment(RigidBody):
     """A body segment: a rigid body with its solid's shape, for drawing.
 
     Attributes
@@ -35,10 +35,10 @@ class Segment(Body):
 
     start: Array
     end: Array
-    radius: Array
+    radius: Number
 
 
-def _limbs(mass: Array, circumference: Array, length: Array, ends: Sequence[Array]) -> tuple[Segment, Segment]:
+def _limbs(mass: Number, circumference: Number, length: Number, ends: Sequence[Array]) -> tuple[Segment, Segment]:
     """Return the right and the left limb, from start to end each: mirror images."""
     _, (mass, radius, length) = as_arrays(mass, circumference / (2 * pi), length)
     inertia = cylinder_inertia(mass, radius, length, unit_vector(ends[1] - ends[0]))
@@ -135,6 +135,7 @@ def rider_segments(rider: Rider, points: Skeleton, arms: str = "bent") -> dict[s
 def _reshaped(segment: Segment, name: str, rider: Rider, up_torso: Array) -> Segment:
     """Return a segment with its mass spread as the rider's shapes say, if they do."""
     kind = name.removeprefix("right_").removeprefix("left_")
+    length: Any
     shape = rider.shapes.get(kind)
     if shape is None:
         return segment

@@ -234,7 +234,7 @@ def frame_faults(frame: dict[int, Array], bicycle: Bicycle) -> list[Fault]:
             xp.isnan(frame[5][..., 0]),
             "chain_stay_length = {chain_stay_length:.4f} m does not span the height {drop:.4f} m "
             "between rear hub and bottom bracket, must be more",
-            {"chain_stay_length": bicycle.chain_stay_length, "drop": abs(drop)},
+            {"chain_stay_length": bicycle.chain_stay_length, "drop": xp.abs(drop)},
             InputError,
             ("chain_stay_length",),
             "more than the height between rear hub and bottom bracket",

@@ -3,32 +3,20 @@
 from __future__ import annotations
 
 import math
-import warnings
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from singletrack.catalogue.geometry import resolve
-from singletrack.catalogue.masses import sample_masses
 from singletrack.catalogue.notes import notes_of
-from singletrack.catalogue.points import points_of
-from singletrack.catalogue.shapes import assemble, place, wheel_inertias
-from singletrack.catalogue.sheet import Sheet
-from singletrack.catalogue.weighing import ASSEMBLIES, collect
-from singletrack.errors import OddityWarning
+from singletrack.catalogue.sample import draw
 from singletrack.parameters import Bicycle
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
-
-    from singletrack.catalogue.geometry import Geometry
+    from singletrack.catalogue.sample import Drawn
     from singletrack.catalogue.weighing import Collection
 
-__all__ = ["Estimate", "bicycle", "estimate"]
-
-_SEED = 20_070_801
-_FRAME = ("mass", "x", "z", "inertia_xx", "inertia_yy", "inertia_zz", "inertia_xz")
+__all__ = ["Estimate", "bicycle", "estimate", "summary"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -113,62 +101,12 @@ def estimate(count: int = 2000, **entries: Any) -> Estimate:
     >>> mine.sample.shape, mine.covariance.shape == (len(mine.names),) * 2
     ((500,), True)
     """
-    sheet = Sheet.of(entries)
-    random = np.random.default_rng(_SEED)
-
-    def normal() -> np.ndarray:
-        return np.concatenate([[0.0], random.standard_normal(count)])
-
-    geometry = resolve(sheet, normal)
-    points = points_of(geometry)
-    collection = collect(sheet, geometry, points)
-    masses, odd = sample_masses(collection.prior, collection.weighings, count, random)
-    for text in odd:
-        warnings.warn(OddityWarning(text, name=sheet.name), stacklevel=3)
-    drawn = _geometric(geometry) | _inertial(collection, geometry, points, masses, random)
-    return _summary(sheet, geometry, collection, masses, drawn)
+    return summary(draw(count, **entries))
 
 
-def _geometric(geometry: Geometry) -> dict[str, np.ndarray]:
-    """Return the parameters that are geometry, each (n + 1,), the sheet's own first."""
-    return {name: geometry.values[name] for name in Bicycle.descriptions() if name in geometry.values}
-
-
-def _inertial(
-    collection: Collection,
-    geometry: Geometry,
-    points: Mapping[str, np.ndarray],
-    masses: np.ndarray,
-    random: np.random.Generator,
-) -> dict[str, np.ndarray]:
-    """Return masses, centres and inertias, each (n,)."""
-    found: dict[str, np.ndarray] = {}
-    sample = {name: point[1:] for name, point in points.items()}
-    for assembly in ASSEMBLIES:
-        own = collection.members(assembly)
-        weights = [masses[:, i] for i in own]
-        end, _, body = assembly.partition(" ")
-        if body == "frame":
-            shifts = random.standard_normal((len(own), 4, len(masses)))
-            placed = [
-                place(collection.shapes[i], collection.forms[i], sample, collection.places[i] * shift[:3].T, shift[3])
-                for i, shift in zip(own, shifts, strict=True)
-            ]
-            together = assemble(weights, placed)
-            found |= {f"{end}_frame_{part}": entry for part, entry in zip(_FRAME, together, strict=True)}
-            continue
-        width, bead = geometry.values[f"{end} tyre width"][1:], geometry.values[f"{end} bead"][1:]
-        radii = {"hub": 0.0 * bead, "bead": bead, "outside": bead + width}
-        shifts = random.standard_normal((len(own), len(masses)))
-        across, about_axle = wheel_inertias(weights, [collection.forms[i] for i in own], radii, shifts)
-        found |= {f"{end}_wheel_mass": np.sum(weights, 0)}
-        found |= {f"{end}_wheel_inertia_xx": across, f"{end}_wheel_inertia_yy": about_axle}
-    return found
-
-
-def _summary(
-    sheet: Sheet, geometry: Geometry, collection: Collection, masses: np.ndarray, drawn: dict[str, np.ndarray]
-) -> Estimate:
+def summary(made: Drawn) -> Estimate:
+    """Return what a sample (``made``) says: means, deviations, covariance, and where each number comes from."""
+    sheet, collection, masses, drawn = made.sheet, made.collection, made.masses, made.values
     count = len(masses)
     values = {name: float(array[0] if len(array) > count else array.mean()) for name, array in drawn.items()}
     sample = {name: array[-count:] for name, array in drawn.items()}
@@ -177,18 +115,24 @@ def _summary(
     centred = np.stack([array - array.mean() for array in known.values()])
     covariance = centred @ centred.T / (count - 1)
     deviations = dict(zip(known, np.sqrt(np.diag(covariance)).tolist(), strict=True))
-    averages = {
-        f"{collection.assemblies[i]}: {name}": (float(masses[:, i].mean()), float(masses[:, i].std()))
-        for i, name in enumerate(collection.prior.names)
-    }
-    source = "estimated from its geometry and from what components weigh (singletrack new); docs/catalogue.md"
+    averages = {name: (float(mass.mean()), float(mass.std())) for name, mass in _by_name(collection, masses).items()}
+    source = "estimated from its geometry and from what components weigh (singletrack new); docs/howto/catalogue.md"
     values = {name: _rounded(value, deviations.get(name)) for name, value in values.items()}
     deviations = {name: float(f"{deviation:.2e}") for name, deviation in deviations.items()}
     texts: dict[str, Any] = {"name": sheet.name, "source": source, "standard_deviations": deviations}
     own = Bicycle(**values | texts)
     texts = {"name": sheet.name}
     batch = Bicycle(**values | known | texts)
-    return Estimate(own, tuple(known), covariance, batch, notes_of(geometry, collection, averages), averages)
+    return Estimate(own, tuple(known), covariance, batch, notes_of(made.geometry, collection, averages), averages)
+
+
+def _by_name(collection: Collection, masses: np.ndarray) -> dict[str, np.ndarray]:
+    """Return masses (n,) by ``assembly: component``; what has a place on each kind of bar is one component."""
+    found: dict[str, np.ndarray] = {}
+    for row, mass in zip(collection.rows, masses.T, strict=True):
+        name = f"{row.assembly}: {row.name}"
+        found[name] = found.get(name, 0.0) + mass
+    return found
 
 
 def _rounded(value: float, deviation: float | None) -> float:

@@ -5,9 +5,11 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 
+from singletrack.arrays import is_concrete
 from singletrack.catalogue.sheet import Sheet
 from singletrack.catalogue.tables import entries
 from singletrack.errors import InputError
@@ -21,6 +23,11 @@ class Geometry:
 
     Attributes
     ----------
+    sheet : Sheet
+    normal : function
+        Returns standard normal numbers, shape (n,).
+    xp : namespace
+        Of the arrays.
     values : dict of str to array, shape (n,)
         In m and rad: the parameters of a bicycle, and tyre widths and bead radii.
     notes : dict of str to str
@@ -30,6 +37,7 @@ class Geometry:
 
     sheet: Sheet
     normal: Callable[[], np.ndarray]
+    xp: Any = np
     values: dict[str, np.ndarray] = field(default_factory=dict)
     notes: dict[str, str] = field(default_factory=dict)
     contradictions: list[InputError] = field(default_factory=list)
@@ -39,11 +47,12 @@ class Geometry:
         found = self.sheet.values.get(name)
         return None if found is None else self.drawn(found.value, found.deviation or 0.0)
 
-    def drawn(self, mean: float, deviation: float) -> np.ndarray:
+    def drawn(self, mean: Any, deviation: Any) -> np.ndarray:
         """Return a sample, shape (n,), of a normal number with a mean and a standard deviation; the mean first."""
-        return mean + deviation * self.normal()
+        result: np.ndarray = mean + deviation * self.normal()
+        return result
 
-    def typical(self, name: str, scale: float = 1.0) -> np.ndarray:
+    def typical(self, name: str, scale: Any = 1.0) -> np.ndarray:
         """Return an entry, shape (n,), given or else typical (``name`` of the entry, ``scale`` of what is typical)."""
         found = self.given(name)
         if found is not None:
@@ -69,7 +78,7 @@ class Geometry:
             return None
         value, text = known[0]
         for other, told in known[1:]:
-            if not abs(other[0] - value[0]) <= slack:
+            if is_concrete(other) and is_concrete(value) and not abs(other[0] - value[0]) <= slack:
                 self.contradictions.append(_contradiction(name, value[0], text, other[0], told))
         self.notes[name] = text
         return value

@@ -31,13 +31,17 @@ class Prior:
     ----------
     names : tuple of str
     mean, own, common : array, shape (c,)
-        Mean, own standard deviation, and the one shared with the components of the same part, in kg; all share
-        :data:`GRADE` besides.
+        Mean, own standard deviation, and the one shared with the components of the same part, in kg; all but loads
+        share :data:`GRADE` besides.
     parts : tuple of str
         Which components share the common one.
     choices, kinds : tuple of str
         "" for a component of no choice.
     probability : array, shape (c,)
+    fitted : array, shape (c,), optional
+        Of a component of a choice: probability that it is there where its kind is.
+    told : array of bool, shape (c,), optional
+        Loads, whose masses are told: they share no grade.
     """
 
     names: tuple[str, ...]
@@ -48,13 +52,15 @@ class Prior:
     choices: tuple[str, ...]
     kinds: tuple[str, ...]
     probability: np.ndarray
+    fitted: np.ndarray | None = None
+    told: np.ndarray | None = None
 
     def covariance(self) -> np.ndarray:
         """Return the covariance of the masses, were all there, shape (c, c), in kg^2."""
         same = np.array([[a == b != "" for b in self.parts] for a in self.parts])
         shared = same * np.outer(self.common, self.common)
         alone = self.own**2 + np.where(np.diag(same), 0.0, self.common**2)
-        grade = GRADE * self.mean
+        grade = GRADE * (self.mean if self.told is None else np.where(self.told, 0.0, self.mean))
         covariance: np.ndarray = shared + np.diag(alone) + np.outer(grade, grade)
         return covariance
 
@@ -140,6 +146,8 @@ def _presence(prior: Prior, members: np.ndarray, count: int, random: np.random.G
         drawn = random.choice(len(kinds), size=count, p=odds / odds.sum())
         for j in own:
             there[:, j] = drawn == kinds.index(prior.kinds[members[j]])
+            if prior.fitted is not None and prior.fitted[members[j]] < 1:
+                there[:, j] &= random.random(count) < prior.fitted[members[j]]
     return there
 
 

@@ -6,12 +6,17 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from singletrack.arrays import vector
+
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from singletrack.catalogue.geometry import Geometry
 
 __all__ = ["points_of"]
+
+#: Share of a telescopic fork's offset that its crown has; the drop-outs have the rest.
+_SLID = 0.8
 
 
 def points_of(geometry: Geometry) -> dict[str, np.ndarray]:
@@ -23,17 +28,17 @@ def points_of(geometry: Geometry) -> dict[str, np.ndarray]:
     ----------
     geometry : Geometry
     """
-    v = geometry.values
+    v, xp = geometry.values, geometry.xp
     rear, front, base = v["rear_wheel_radius"], v["front_wheel_radius"], v["wheel_base"]
     tilt, axis = v["steer_axis_tilt"], base + v["trail"]
-    sin, cos, slope = np.sin(tilt), np.cos(tilt), np.tan(tilt)
+    sin, cos, slope = xp.sin(tilt), xp.cos(tilt), xp.tan(tilt)
     angle, bracket, height = v["seat_tube_angle"], v["bracket x"], v["bottom_bracket_height"]
 
     def on_axis(up: np.ndarray, y: float = 0.0) -> np.ndarray:
         return _point(axis - up * slope, up, y)
 
     def on_seat_tube(length: np.ndarray) -> np.ndarray:
-        return _point(bracket - length * np.cos(angle), height + length * np.sin(angle))
+        return _point(bracket - length * xp.cos(angle), height + length * xp.sin(angle))
 
     tube, post = v["seat_tube_length"], v["seat_post_length"]
     crown = front - v["fork offset"] * sin + v["crown along"] * cos
@@ -55,6 +60,8 @@ def points_of(geometry: Geometry) -> dict[str, np.ndarray]:
         "head tube bottom": on_axis(crown + 0.02),
         "crown": on_axis(crown),
         "crown sides": on_axis(crown, 0.045),
+        # What slides is parallel to the steer axis: legs of a telescopic fork are ahead of it up to the crown.
+        "crown ahead": on_axis(crown, 0.065) + _SLID * _point(v["fork offset"] * cos, v["fork offset"] * sin),
         "front hub": _point(base, front),
         "front drop-out": _point(base, front, v["front_hub_width"] / 2),
         "front tyre top": on_axis(crown) + np.array([0.05, 0.0, 0.0]),
@@ -65,7 +72,7 @@ def points_of(geometry: Geometry) -> dict[str, np.ndarray]:
 
 
 def _point(x: np.ndarray, up: np.ndarray, y: np.ndarray | float = 0.0) -> np.ndarray:
-    return np.stack(np.broadcast_arrays(x, y, -up), -1)
+    return vector(x, y, -up)
 
 
 def _of_handlebar(v: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:

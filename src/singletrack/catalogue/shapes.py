@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from singletrack.arrays import namespace
 from singletrack.mechanics.rigid import PlanarBody
 
 if TYPE_CHECKING:
@@ -18,6 +19,7 @@ __all__ = ["LUMP_SIZE", "Placed", "assemble", "place", "wheel_inertias"]
 
 #: Relative standard deviation of a lump's length, width and height: how a box stands for what is none.
 LUMP_SIZE = 0.2
+_PLANE = np.array([0, 2])
 #: Centre (n, 2), forward and down in m; second moments about it by unit mass, (n,) each, in m^2: xx, yy, zz, xz.
 Placed = tuple[np.ndarray, tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]]
 
@@ -42,7 +44,7 @@ def place(
     if shape == "rod":
         start, end = (points[form[key]] for key in ("from", "to"))
         apart, thick = form.get("apart", 0.0), form.get("thick", 0.03)
-        along = (end - start)[:, [0, 2]]
+        along = (end - start)[:, _PLANE]
         left, right = start[:, 1] + aside, end[:, 1] + aside
         y = (left**2 + left * right + right**2) / 3 + apart**2
         own = thick**2 / 8
@@ -52,20 +54,20 @@ def place(
             along[:, 1] ** 2 / 12 + own,
             along[:, 0] * along[:, 1] / 12,
         )
-        return (start + end)[:, [0, 2]] / 2 + shift, moments
+        return (start + end)[:, _PLANE] / 2 + shift, moments
     if shape == "arc":
         hub = points[form["about"]]
         angles = np.radians(np.linspace(form["arc"][0], form["arc"][1], 19))
         x, z = np.cos(angles), -np.sin(angles)
         radius = 0.015 - hub[:, 2]
-        centre = hub[:, [0, 2]] + radius[:, None] * np.array([x.mean(), z.mean()]) + shift
+        centre = hub[:, _PLANE] + radius[:, None] * np.array([x.mean(), z.mean()]) + shift
         xz = ((x - x.mean()) * (z - z.mean())).mean()
         square = radius**2
         return centre, (square * x.var(), 0.0 * square + 0.025**2, square * z.var(), square * xz)
     at = points[form["at"]]
     length, width, height = (size * np.exp(LUMP_SIZE * swell) for size in form["size"])
     y = (at[:, 1] + form.get("apart", 0.0) + aside) ** 2 + width**2 / 12
-    centre = at[:, [0, 2]] + np.array(form.get("offset", (0.0, 0.0))) + shift
+    centre = at[:, _PLANE] + np.array(form.get("offset", (0.0, 0.0))) + shift
     return centre, (length**2 / 12, y, height**2 / 12, 0.0 * y)
 
 
@@ -79,12 +81,13 @@ def assemble(masses: Sequence[np.ndarray], placed: Sequence[Placed]) -> PlanarBo
     placed : sequence of Placed
         Of the same components.
     """
-    weights = np.stack(masses)
+    xp = namespace(*masses, placed[0][0])
+    weights = xp.stack(masses)
     total = weights.sum(0)
-    centres = np.stack([centre for centre, _ in placed])
+    centres = xp.stack([centre for centre, _ in placed])
     centre = (weights[..., None] * centres).sum(0) / total[:, None]
     arms = centres - centre
-    own = np.stack([np.stack(moments) for _, moments in placed])
+    own = xp.stack([xp.stack(xp.broadcast_arrays(*moments)) for _, moments in placed])
     x2, y2, z2, xz = (weights[:, None] * own).sum(0)
     x2 = x2 + (weights * arms[..., 0] ** 2).sum(0)
     z2 = z2 + (weights * arms[..., 1] ** 2).sum(0)
@@ -113,10 +116,11 @@ def wheel_inertias(
     shifts : array, shape (c, n)
         Standard normal numbers: how far each radius is from its usual one.
     """
-    about_axle, across = np.zeros_like(masses[0]), np.zeros_like(masses[0])
+    xp = namespace(*masses, *radii.values())
+    about_axle, across = 0.0 * masses[0], 0.0 * masses[0]
     for mass, form, shift in zip(masses, forms, shifts, strict=True):
         inner, outer = (
-            np.maximum(radii[base] + offset + form["spread"] * shift, 0.0)
+            xp.maximum(radii[base] + offset + form["spread"] * shift, 0.0)
             for base, offset in (form["from"], form["to"])
         )
         about_axle = about_axle + mass * (inner**2 + inner * outer + outer**2) / 3

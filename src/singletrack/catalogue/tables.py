@@ -9,7 +9,7 @@ from typing import Any
 
 from singletrack.files.toml_text import parse_toml
 
-__all__ = ["Component", "Entry", "bars", "components", "entries"]
+__all__ = ["Component", "Entry", "bars", "components", "entries", "sources"]
 
 
 @dataclass(frozen=True)
@@ -52,6 +52,8 @@ class Component:
         Relative standard deviation that the components of a part share.
     choice, kind, probability
         A component of a choice is there where its kind is; one without, by its probability.
+    fitted : float
+        Probability that a component of a choice is there where its kind is.
     shape : {"lump", "rod", "arc", "hoop"}
     form : mapping
         What the shape needs: points, offsets, sizes.
@@ -71,6 +73,7 @@ class Component:
     choice: str = ""
     kind: str = ""
     probability: float = 1.0
+    fitted: float = 1.0
     place: tuple[float, float] = (0.0, 0.0)
 
 
@@ -86,6 +89,7 @@ _OWN = (
     "choice",
     "kind",
     "probability",
+    "fitted",
     "place",
 )
 
@@ -132,8 +136,8 @@ def bars() -> dict[str, dict[str, tuple[float, float]]]:
 def components() -> tuple[Component, ...]:
     """Return all components, those of a wheel once for either.
 
-    >>> [component.name for component in components() if component.assembly == "rear wheel"][:4]
-    ['tyre', 'tube', 'rim', 'spokes']
+    >>> [component.name for component in components() if component.assembly == "rear wheel"][:5]
+    ['tyre', 'tube', 'rim', 'steel rim', 'spokes']
     """
     found = []
     for row in _table("components.toml")["component"]:
@@ -142,3 +146,13 @@ def components() -> tuple[Component, ...]:
         ends = ("rear wheel", "front wheel") if row["assembly"] == "wheel" else (row["assembly"],)
         found += [Component(**own | {"assembly": end, "form": form}) for end in ends]
     return tuple(found)
+
+
+@functools.cache
+def sources() -> dict[str, str]:
+    """Return where the components' numbers come from, in words by key; the first word says of which kind a source is.
+
+    >>> sources()["dt"].partition(":")[0]
+    'published'
+    """
+    return dict(_table("components.toml")["sources"])

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping  # part of the public signature
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -13,17 +12,21 @@ from singletrack.catalogue.tables import Component, components
 from singletrack.errors import InputError
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from singletrack.catalogue.geometry import Geometry
     from singletrack.catalogue.sheet import Load, Sheet
     from singletrack.parameters.units import Quantity
 
-__all__ = ["ASSEMBLIES", "Collection", "collect"]
+__all__ = ["ASSEMBLIES", "Collection", "collect", "size_of"]
 
 ASSEMBLIES = ("rear frame", "front frame", "rear wheel", "front wheel")
 #: The kinds of component by the sheet's word for the handlebar.
 BARS = {"flat": "straight bar", "riser": "straight bar", "city": "city bar", "drop": "drop bar"}
 #: Of the tyre that the table's masses are of: width and bead radius in m.
 _USUAL = (0.037, 0.311)
+#: Relative standard deviation of a single tube's mass per length beside what a frame's tubes share (source "tubes").
+_TUBE = 0.20
 
 
 @dataclass(frozen=True)
@@ -34,22 +37,20 @@ class Collection:
     ----------
     prior : Prior
     weighings : tuple of Weighing
-    assemblies, shapes : tuple of str
-    forms : tuple of mapping
+    rows : tuple of Component
+        Loads last.
     places : array, shape (c, 3)
         Standard deviations of places in m: forward, down, aside.
     """
 
     prior: Prior
     weighings: tuple[Weighing, ...]
-    assemblies: tuple[str, ...]
-    shapes: tuple[str, ...]
-    forms: tuple[Mapping[str, Any], ...]
+    rows: tuple[Component, ...]
     places: np.ndarray
 
     def members(self, assembly: str) -> list[int]:
         """Return the positions of the components of an ``assembly``."""
-        return [i for i, own in enumerate(self.assemblies) if own == assembly]
+        return [i for i, row in enumerate(self.rows) if row.assembly == assembly]
 
 
 def collect(sheet: Sheet, geometry: Geometry, points: Mapping[str, np.ndarray]) -> Collection:
@@ -81,13 +82,13 @@ def collect(sheet: Sheet, geometry: Geometry, points: Mapping[str, np.ndarray]) 
         choices=tuple(row.choice for row in rows),
         kinds=tuple(row.kind for row in rows),
         probability=np.array([_probability(row, sheet) for row in rows]),
+        fitted=np.array([1.0 if sheet.fitted.get(row.name) else row.fitted for row in rows]),
+        told=np.arange(len(rows)) >= len(rows) - len(loads),
     )
     return Collection(
         prior,
         tuple(_weighings(sheet, rows)),
-        tuple(row.assembly for row in rows),
-        tuple(row.shape for row in rows),
-        tuple(row.form for row in rows),
+        tuple(rows),
         np.array([(*row.place, 0.0)[:3] for row in rows]),
     )
 
@@ -98,13 +99,8 @@ def _probability(component: Component, sheet: Sheet) -> float:
     if any(sheet.fitted.get(name) is False for name in own):
         return 0.0
     if component.choice:
-        rivals = {
-            name: other.kind
-            for other in components()
-            if other.choice == component.choice
-            for name in (other.name, other.kind)
-        }
-        chosen = {rivals[name] for name, there in sheet.fitted.items() if there and name in rivals}
+        rivals = [other for other in components() if other.choice == component.choice]
+        chosen = {other.kind for other in rivals if sheet.fitted.get(other.name) or sheet.fitted.get(other.kind)}
         if component.choice == "bar" and "bar" in sheet.texts:
             chosen |= {BARS[sheet.texts["bar"]]}
         if chosen:
@@ -115,20 +111,32 @@ def _probability(component: Component, sheet: Sheet) -> float:
 
 def _mass(component: Component, geometry: Geometry, points: Mapping[str, np.ndarray]) -> tuple[float, float]:
     """Return a component's mass in kg with its own standard deviation, on this bicycle."""
+    size = float(np.ravel(size_of(component, geometry, points))[0])
     if component.tube is not None:
         diameter, wall, density = component.tube
-        start, end = (points[component.form[key]][0] for key in ("from", "to"))
-        metre = np.pi * (diameter - wall) * wall * density
-        mean = float(component.count * metre * np.linalg.norm(end - start))
-        return mean, 0.15 * mean
+        mean = float(component.count * np.pi * (diameter - wall) * wall * density * size)
+        return mean, _TUBE * mean
     mean, deviation = component.mass or (0.0, 0.0)
-    if component.shape == "hoop" and component.assembly.endswith("wheel") and not component.choice:
-        end = component.assembly.partition(" ")[0]
-        width, bead = geometry.values[f"{end} tyre width"][0], geometry.values[f"{end} bead"][0]
-        size = 1.0 if component.form["to"][0] == "hub" else bead / _USUAL[1]
-        scale = float(size * (width / _USUAL[0]) ** component.form.get("width_power", 0.0))
-        return mean * scale, deviation * scale
-    return mean, deviation
+    return mean * size, deviation * size
+
+
+def size_of(component: Component, geometry: Geometry, points: Mapping[str, np.ndarray]) -> Any:
+    """Return what a component's mass is proportional to, shape (n,): a tube's length in m, a hoop's size, else 1.
+
+    Parameters
+    ----------
+    component : Component
+    geometry : Geometry
+    points : mapping of str to array, shape (n, 3)
+    """
+    if component.tube is not None:
+        start, end = (points[component.form[key]] for key in ("from", "to"))
+        return geometry.xp.sqrt(((end - start) ** 2).sum(-1))
+    if component.shape != "hoop" or component.form["to"][0] == "hub":
+        return 1.0
+    which = component.assembly.partition(" ")[0]
+    width, bead = geometry.values[f"{which} tyre width"], geometry.values[f"{which} bead"]
+    return bead / _USUAL[1] * (width / _USUAL[0]) ** component.form.get("width_power", 0.0)
 
 
 def _of_load(load: Load) -> tuple[Component, tuple[float, float]]:

@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 import dataclasses
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from singletrack.arrays import Array, as_arrays, is_concrete, refuse_single, require_double
 from singletrack.closed_form.flexible import flexible_matrices, hinge_laws
-from singletrack.closed_form.round_tyres import on_round_tyres
+from singletrack.closed_form.round_tyres import has_round_tyres, load_of_rider, on_round_tyres
+from singletrack.closed_form.single import single_design
 from singletrack.closed_form.slaved import slaved_matrices
-from singletrack.closed_form.whipple import whipple_matrices
+from singletrack.closed_form.whipple import Matrices, whipple_matrices
 from singletrack.model import COORDINATES, INPUTS, LinearModel
 from singletrack.model.definite import indefinite
 from singletrack.parameters.flexible import soft_hinges
@@ -21,10 +22,9 @@ if TYPE_CHECKING:
     from singletrack.parameters import Bicycle, Rider
     from singletrack.posture import Posture
 
-__all__ = ["coefficients"]
+__all__ = ["by_arrays", "coefficients", "seated_model"]
 
 
-@np.errstate(all="ignore")  # sound designs overflow nowhere; faulty ones of a batch are flagged, and NaN
 def coefficients(bicycle: Bicycle, rider: Rider | None = None, options: Options | str = "rigid") -> LinearModel:
     """Return the coefficient matrices of the linearised equations of motion.
 
@@ -66,6 +66,16 @@ def coefficients(bicycle: Bicycle, rider: Rider | None = None, options: Options 
     (0.4614, 2.3268)
     """
     options = Options.of(options)
+    single = single_design(bicycle, rider, options)
+    return by_arrays(bicycle, rider, options) if single is None else single.model
+
+
+@np.errstate(all="ignore")  # sound designs overflow nowhere; faulty ones of a batch are flagged, and NaN
+def by_arrays(bicycle: Bicycle, rider: Rider | None, options: Options) -> LinearModel:
+    """Return the coefficient matrices by the equations for arrays: of any batch, on NumPy or JAX, with all faults.
+
+    Parameters and errors as for :func:`coefficients`; each matrix of shape (..., n, n).
+    """
     bare = whipple_matrices(bicycle)
     require_double(bare.M)
     if rider is None:
@@ -74,15 +84,41 @@ def coefficients(bicycle: Bicycle, rider: Rider | None = None, options: Options 
         model = LinearModel(*bare, bicycle.gravity, faults=bicycle.standing_faults, C0=laws[0], S0=laws[1])
         return _checked(on_round_tyres(_softened(model, bicycle, None), bicycle, None), bicycle.name)
     posture = seat(bicycle, rider, options)
-    bodies = slaved_mass(posture, bicycle)
+    model = seated_model(bicycle, posture, bare, options)
+    faults = bicycle.standing_faults + rider.standing_faults + model.faults
+    return _checked(dataclasses.replace(model, faults=faults), bicycle.name)
+
+
+def seated_model(
+    bicycle: Bicycle,
+    posture: Posture,
+    bare: Matrices | None = None,
+    options: Options | None = None,
+    *,
+    massless: bool = False,
+) -> LinearModel:
+    """Return the equations with a seated rider, whatever the mass matrix; faults are those of the posture.
+
+    Parameters
+    ----------
+    bicycle : Bicycle
+    posture : Posture
+    bare : Matrices, optional
+        Of the bicycle alone, where they are known already.
+    options : Options, optional
+        Whose spring and damper at the steer there are.
+    massless : bool
+        Let free joints move no mass.
+    """
+    bare = whipple_matrices(bicycle) if bare is None else bare
+    bodies = slaved_mass(posture, bicycle, massless=massless)
     added = slaved_matrices(bodies, bicycle)
-    faults = bicycle.standing_faults + rider.standing_faults + bodies.faults
     more = len(bodies.freedoms)
     M, C1, K0, K2 = (_padded(one, more) + other for one, other in zip(bare, added, strict=True))
     of_joints = (bodies.damping, bodies.stiffness)
     C0, S0 = (
         _both(None if own is None else _bordered(own), steer)
-        for own, steer in zip(of_joints, _steer_laws(options, 1 + more), strict=True)
+        for own, steer in zip(of_joints, _steer_laws(options or Options(), 1 + more), strict=True)
     )
     model = LinearModel(
         M,
@@ -90,13 +126,14 @@ def coefficients(bicycle: Bicycle, rider: Rider | None = None, options: Options 
         K0,
         K2,
         bicycle.gravity,
-        faults=faults,
+        faults=bodies.faults,
         C0=C0,
         S0=S0,
         coordinates=(*COORDINATES, *bodies.freedoms),
         inputs=(*INPUTS, *map(input_name, bodies.freedoms)),
     )
-    return _checked(on_round_tyres(_softened(model, bicycle, posture), bicycle, posture), bicycle.name)
+    load = load_of_rider(posture) if has_round_tyres(bicycle) else None
+    return on_round_tyres(_softened(model, bicycle, posture), bicycle, load)
 
 
 def _softened(model: LinearModel, bicycle: Bicycle, posture: Posture | None) -> LinearModel:
@@ -140,7 +177,7 @@ def _bordered(matrix: Array) -> Array:
     return xp.concat([xp.zeros((*batch, 1, f + 1), dtype=matrix.dtype), wide], axis=-2)
 
 
-def _steer_laws(options: Options, freedoms: int) -> tuple[Array | None, Array | None]:
+def _steer_laws(options: Options, freedoms: int) -> tuple[Any, Any]:
     """Return C0 and S0 of damper and spring on the steer, None without."""
     found: list[Array | None] = []
     for values in (options.dampers, options.springs):
@@ -154,7 +191,7 @@ def _steer_laws(options: Options, freedoms: int) -> tuple[Array | None, Array | 
     return found[0], found[1]
 
 
-def _both(one: Array | None, other: Array | None) -> Array | None:
+def _both(one: Array | None, other: Array | None) -> Any:
     if one is None or other is None:
         return other if one is None else one
     return one + other

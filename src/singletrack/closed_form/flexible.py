@@ -1,4 +1,4 @@
-"""The bicycle whose frame or fork bends about a hinge, with or without rider (derived in docs/theory.md).
+"""The bicycle whose frame or fork bends about a hinge, with or without rider (derived in docs/theory/closed-form.md).
 
 Steer, frame torsion and fork bending are hinges in the bicycle's plane. Each moves the front contact sideways by eta_i
 and turns the front wheel about the vertical by a_i,z, so that rolling takes the frame along by

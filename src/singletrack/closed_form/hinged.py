@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
-from singletrack.arrays import Array, as_arrays, cross, matvec, stack, vector
+from singletrack.arrays import Array, Number, as_arrays, cross, matvec, stack, vector
 from singletrack.parameters.flexible import FORK_BENDING, FRAME_TORSION, soft_hinges
 from singletrack.posture import seat, slaved_bodies
 
@@ -35,10 +35,10 @@ class Hinge(NamedTuple):
 
     ax: Array
     az: Array
-    x: Array
-    z: Array
+    x: Number
+    z: Number
 
-    def lateral(self, x: Array, z: Array) -> Array:
+    def lateral(self, x: Number, z: Number) -> Array:
         """Return how far a point of what it carries moves sideways, per unit angle.
 
         Parameters
@@ -169,7 +169,7 @@ def bicycle_bodies(bicycle: Bicycle, hinges: dict[str, Hinge], names: tuple[str,
     )
 
 
-def _solid(bicycle: Bicycle, body: str) -> tuple[Array, Array, Array, Array]:
+def _solid(bicycle: Bicycle, body: str) -> tuple[Array, Number, Array, Array]:
     """Return mass, centre's x and z, and inertia (..., 3, 3) of a body of the bicycle."""
     mass = getattr(bicycle, f"{body}_mass")
     xx, yy = (getattr(bicycle, f"{body}_inertia_{axes}") for axes in ("xx", "yy"))

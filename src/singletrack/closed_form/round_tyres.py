@@ -1,4 +1,4 @@
-"""Tyres with a round cross-section: what leaning on them adds to the linear model (derived in docs/theory.md).
+"""Tyres with a round cross-section: what leaning on them adds to the linear model (docs/theory/closed-form.md).
 
 A wheel of outer radius r and crown radius c (of the tyre's cross-section) that leans by a stands with its hub at the
 height ``(r - c) cos a + c``: higher than a knife edge by ``c a^2 / 2``. To second order that lifts the load N on the
@@ -16,7 +16,7 @@ from __future__ import annotations
 import dataclasses
 from typing import TYPE_CHECKING
 
-from singletrack.arrays import Array, as_arrays, stack
+from singletrack.arrays import Number, as_arrays, stack
 from singletrack.parameters.bodies import bicycle_bodies
 from singletrack.parameters.flexible import soft_hinges
 
@@ -25,10 +25,10 @@ if TYPE_CHECKING:
     from singletrack.parameters import Bicycle
     from singletrack.posture import Posture
 
-__all__ = ["on_round_tyres"]
+__all__ = ["has_round_tyres", "load_of_rider", "on_round_tyres"]
 
 
-def on_round_tyres(model: LinearModel, bicycle: Bicycle, posture: Posture | None) -> LinearModel:
+def on_round_tyres(model: LinearModel, bicycle: Bicycle, rider_load: tuple[Number, Number] | None) -> LinearModel:
     """Return the model of a bicycle on its round tyres, where it has a tyre radius.
 
     Parameters
@@ -36,8 +36,8 @@ def on_round_tyres(model: LinearModel, bicycle: Bicycle, posture: Posture | None
     model : LinearModel
         On knife edges.
     bicycle : Bicycle
-    posture : Posture, optional
-        The seated rider, who loads the wheels too.
+    rider_load : (array, array), shape (...) each, optional
+        Of the seated rider, who loads the wheels too (:func:`load_of_rider`).
 
     Examples
     --------
@@ -47,10 +47,10 @@ def on_round_tyres(model: LinearModel, bicycle: Bicycle, posture: Posture | None
     >>> round(float(round_.critical_speeds().capsize[0] - knife.critical_speeds().capsize[0]), 3) != 0.0
     True
     """
-    if bicycle.rear_tyre_radius is None and bicycle.front_tyre_radius is None:
+    if not has_round_tyres(bicycle):
         return model
     xp, (tilt, base) = as_arrays(bicycle.steer_axis_tilt, bicycle.wheel_base)
-    front, rear = _loads(bicycle, posture)
+    front, rear = _loads(bicycle, rider_load)
     zero = 0.0 * tilt * base
     leans = {"lean": zero + 1.0, "steer": zero + xp.sin(tilt)}
     leans |= {hinge.name: zero + hinge.axis[..., 0] for hinge in soft_hinges(bicycle)}
@@ -64,14 +64,33 @@ def on_round_tyres(model: LinearModel, bicycle: Bicycle, posture: Posture | None
     return dataclasses.replace(model, K0=K0)
 
 
-def _loads(bicycle: Bicycle, posture: Posture | None) -> tuple[Array, Array]:
+def has_round_tyres(bicycle: Bicycle) -> bool:
+    """Tell whether the tyres of a bicycle are round: whether a rider's load matters.
+
+    Parameters
+    ----------
+    bicycle : Bicycle
+    """
+    return bicycle.rear_tyre_radius is not None or bicycle.front_tyre_radius is not None
+
+
+def load_of_rider(posture: Posture) -> tuple[Number, Number]:
+    """Return a seated rider's mass in kg and its first moment about the rear contact along x in kg m, (...) each.
+
+    Parameters
+    ----------
+    posture : Posture
+    """
+    segments = posture.segments.values()
+    return sum(part.mass for part in segments), sum(part.mass * part.centre[..., 0] for part in segments)
+
+
+def _loads(bicycle: Bicycle, rider_load: tuple[Number, Number] | None) -> tuple[Number, Number]:
     """Return the masses that rest on the front and on the rear wheel, kg, (...)."""
     own = bicycle_bodies(bicycle).values()
     mass = sum(body.mass for body in own)
     moment = sum(body.mass * body.x for body in own)
-    if posture is not None:
-        segments = posture.segments.values()
-        mass = mass + sum(segment.mass for segment in segments)
-        moment = moment + sum(segment.mass * segment.centre[..., 0] for segment in segments)
+    if rider_load is not None:
+        mass, moment = mass + rider_load[0], moment + rider_load[1]
     front = moment / bicycle.wheel_base
     return front, mass - front

@@ -1,10 +1,10 @@
-"""What bodies slaved to the steer angle and to free joints add to the matrices (derived in docs/theory.md)."""
+"""What bodies slaved to the steer angle and to free joints add to the matrices (docs/theory/closed-form.md)."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
-from singletrack.arrays import Array, as_arrays, stack
+from singletrack.arrays import Array, Number, as_arrays, stack
 from singletrack.closed_form.whipple import Matrices
 
 if TYPE_CHECKING:
@@ -66,11 +66,11 @@ def slaved_matrices(bodies: SlavedMass, bicycle: Bicycle) -> Matrices:
     sinking[0, 0] = sinking[0, 0] + mu * xp.sin(tilt) * bodies.moment_x
     by_yaw, by_lateral = [bodies.inertia_xz, *yaw], [-bodies.moment_z, *lateral]
 
-    def symmetric(corner: Array, edge: Sequence[Array], rest: dict[tuple[int, int], Array]) -> Array:
+    def symmetric(corner: Number, edge: Sequence[Number], rest: dict[tuple[int, int], Any]) -> Array:
         inside = [[rest[min(i, j), max(i, j)] for j in range(count)] for i in range(count)]
         return _matrix([[corner, *edge], *([edge[i], *row] for i, row in enumerate(inside))])
 
-    def steer_column(values: Sequence[Array]) -> Array:
+    def steer_column(values: Sequence[Number]) -> Array:
         return _matrix([[0.0, value, *([0.0] * (count - 1))] for value in values])
 
     return Matrices(
@@ -81,7 +81,7 @@ def slaved_matrices(bodies: SlavedMass, bicycle: Bicycle) -> Matrices:
     )
 
 
-def _matrix(rows: list[list[Array]]) -> Array:
+def _matrix(rows: list[list[Number]]) -> Array:
     """Return matrices (..., n, n) of their entries (...)."""
     flat = stack([entry for row in rows for entry in row], -1)
     return flat.reshape(*flat.shape[:-1], len(rows), len(rows))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from singletrack.arrays import Array, as_arrays, stack, vector
+from singletrack.arrays import Array, Number, as_arrays, stack, vector
 from singletrack.parameters.bodies import bodies_of_values
 
 if TYPE_CHECKING:
@@ -26,15 +26,15 @@ class Matrices(NamedTuple):
 class _System(NamedTuple):
     """Mass, centre and inertia of bodies taken together, about the rear contact or their own centre."""
 
-    mass: Array
-    x: Array
-    z: Array
-    xx: Array
-    xz: Array
-    zz: Array
+    mass: Number
+    x: Number
+    z: Number
+    xx: Number
+    xz: Number
+    zz: Number
 
 
-def matrix2(a11: Array, a12: Array, a21: Array, a22: Array) -> Array:
+def matrix2(a11: Number, a12: Number, a21: Number, a22: Number) -> Array:
     """Return matrices (..., 2, 2) of their entries (...).
 
     Parameters

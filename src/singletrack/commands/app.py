@@ -16,7 +16,23 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
     from types import FrameType
 
-__all__ = ["main"]
+__all__ = ["EXIT_CODES", "main"]
+
+#: What the program says to the one that called it.
+EXIT_CODES = {
+    0: "Done.",
+    1: "An error of the program itself, or not enough memory: nothing that other input would mend. "
+    "SINGLETRACK_TRACEBACK=1 shows where.",
+    2: "Something that you can mend: one sentence on standard error names the file, the parameter, what was found and "
+    "what is allowed. Nothing half-written is left.",
+    128 + signal.SIGINT: "Interrupted (Ctrl-C); a sweep says how to go on.",
+    141: "Nobody reads the output any more (a pipe that was closed).",
+    128 + signal.SIGTERM: "Terminated; as after Ctrl-C.",
+}
+
+
+#: For Matplotlib's warning of each such character, which names places in our code.
+_NO_GLYPH = "a name or a title has characters that the figure's font lacks; they are drawn as boxes"
 
 
 class _Terminated(BaseException):
@@ -35,7 +51,9 @@ def main() -> None:
 
 
 def _run() -> int:
-    # The door of all commands, opened within the guard: an interruption while libraries load ends in one sentence too.
+    # Commands are imported within the guard: an interruption while libraries load ends in one sentence too.
+    if importlib.import_module("singletrack.commands.plain").answered(sys.argv[1:]):
+        return 0
     return int(importlib.import_module("singletrack.commands.door").run(sys.argv[1:]))
 
 
@@ -76,7 +94,7 @@ def _notes(error: BaseException) -> list[str]:
 
 
 def _said(text: str, code: int) -> int:
-    say = importlib.import_module("singletrack.present.terminal").say  # light; guarded like all the rest
+    say = importlib.import_module("singletrack.present.readable").say  # light; guarded like all the rest
     say(f"singletrack: {text}")
     return code
 
@@ -128,11 +146,12 @@ def _warnings_said() -> Iterator[None]:
     said: set[str] = set()
 
     def show(message: Warning | str, category: type[Warning], *place: object) -> None:
-        if not issubclass(category, OddityWarning):
+        text = _NO_GLYPH if category is UserWarning and str(message).startswith("Glyph ") else str(message)
+        if not issubclass(category, OddityWarning) and text is not _NO_GLYPH:
             usual(message, category, *place)  # type: ignore[arg-type]
-        elif str(message) not in said:
-            said.add(str(message))
-            _said(f"warning: {message}", 0)
+        elif text not in said:
+            said.add(text)
+            _said(f"warning: {text}", 0)
 
     with warnings.catch_warnings():
         usual = warnings.showwarning

@@ -55,5 +55,5 @@ def _content(made: Made, suffix: str) -> str | bytes:
     if suffix == ".csv":
         return model_csv(made.model)
     if suffix == ".tex":
-        return latex_table(made.model, made.model.critical_speeds(), made.title)
+        return latex_table(made.model, made.asked.critical_speeds(), made.title)
     return jsonlib.dumps(made.model.to_dict(), indent=1) + "\n"

@@ -14,6 +14,7 @@ from singletrack.commands.model_options import EngineName, ModelOptions, pairs
 from singletrack.commands.options import BicycleArgument, JsonOption
 from singletrack.commands.printing import print_json, show
 from singletrack.errors import InputError
+from singletrack.linear import always_unstable
 from singletrack.model import LinearModel
 from singletrack.present.certificates import certificate_text
 from singletrack.present.tables import critical_speeds_text
@@ -43,11 +44,21 @@ def run(
     if over and not certify:
         raise InputError("--over: says which designs are certified, and there is no --certify")
     made = model_from(bicycle, options)
-    found: Any = _certificate(made, options, over) if certify else made.model.critical_speeds()
+    if certify:
+        certificate = _certificate(made, options, over)
+        if json:
+            print_json(certificate.to_dict())
+        else:
+            show(f"{made.title}\n{certificate_text(certificate)}")
+        return
+    speeds = made.asked.critical_speeds()
+    unstable = always_unstable(made.model, speeds)
     if json:
-        print_json(found.to_dict())
+        # Two freedoms have the JSON of version 0.1.
+        more = {"unstable": [one.to_dict() for one in unstable]} if unstable and made.model.freedoms > 2 else {}
+        print_json(speeds.to_dict() | more)
     else:
-        show(f"{made.title}\n{certificate_text(found) if certify else critical_speeds_text(found)}")
+        show(f"{made.title}\n{critical_speeds_text(speeds, unstable=unstable)}")
 
 
 def _certificate(made: Made, options: ModelOptions, over: list[str] | None) -> Any:

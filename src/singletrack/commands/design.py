@@ -74,7 +74,7 @@ def run(
     for file, check in ((output, check_output), (state, check_writable)):
         if file is not None:
             check(file)
-    design = _adapting(design_from(bicycle, options), options)
+    design = _adapting(design_from(bicycle, options, [text.partition("=")[0].strip() for text in vary]), options)
     goals = [_aim(text) for text in aims]
     if len(goals) > 2:
         raise InputError(f"--aim: found {len(goals)}, must be one or two")

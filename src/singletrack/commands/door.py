@@ -10,7 +10,11 @@ import dataclasses
 import functools
 import importlib
 import inspect
-from typing import TYPE_CHECKING, Annotated, Any, get_type_hints
+import logging
+from enum import StrEnum
+from pathlib import PurePath
+from types import NoneType, UnionType
+from typing import TYPE_CHECKING, Annotated, Any, get_args, get_origin, get_type_hints
 
 import typer
 from typer.core import TyperCommand, TyperGroup
@@ -22,7 +26,7 @@ from singletrack.version import __version__
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-__all__ = ["COMMANDS", "run"]
+__all__ = ["COMMANDS", "command", "run"]
 
 #: Each command and what it does; its module has its name, with "_" for "-".
 COMMANDS = {
@@ -56,6 +60,13 @@ _SETTINGS = {"help_option_names": ["-h", "--help"]}
 _UsageError: Any = next(base for base in typer.BadParameter.__mro__ if base.__name__ == "ClickException")
 
 
+class _Command(TyperCommand):
+    """A command that loads nothing to tell that no help was asked for."""
+
+    def get_help_option(self, ctx: Any) -> Any:
+        return _unasked_for(super().get_help_option(ctx))
+
+
 class _Door(TyperGroup):
     """A group that knows its commands by name and help, and imports a command's module when it is called."""
 
@@ -63,16 +74,75 @@ class _Door(TyperGroup):
         super().__init__(**attributes)
         self.commands.update({name: TyperCommand(name, help=text) for name, text in COMMANDS.items()})
 
+    def get_help_option(self, ctx: Any) -> Any:
+        return _unasked_for(super().get_help_option(ctx))
+
     def resolve_command(self, ctx: Any, args: list[str]) -> tuple[str | None, Any, list[str]]:
-        name, command, rest = super().resolve_command(ctx, args)
-        return name, command and _command(str(name)), rest
+        name, found, rest = super().resolve_command(ctx, args)
+        return name, found and command(str(name)), rest
 
 
-def _command(name: str) -> Any:
+def command(name: str) -> Any:
+    """Return a command with its arguments and options; its module is imported.
+
+    Parameters
+    ----------
+    name : str
+        One of :data:`COMMANDS`.
+    """
     module = importlib.import_module(f"singletrack.commands.{name.replace('-', '_')}")
     alone = typer.Typer(add_completion=False)
-    alone.command(name, help=COMMANDS[name], context_settings=_SETTINGS)(_flat(module.run))
-    return typer.main.get_command(alone)
+    function = _flat(module.run)
+    alone.command(name, help=COMMANDS[name], context_settings=_SETTINGS, cls=_Command)(function)
+    made = typer.main.get_command(alone)
+    for parameter in made.params:
+        _leave_as_it_is(parameter, function.__annotations__.get(parameter.name))
+    return made
+
+
+def _unasked_for(option: Any) -> Any:
+    """Return an option that does nothing where it is not given."""
+    convert = type(option).process_value
+
+    def process(ctx: Any, value: Any) -> Any:
+        return None if value is None else convert(option, ctx, value)
+
+    option.process_value = process
+    return option
+
+
+def _leave_as_it_is(parameter: Any, annotation: Any) -> None:
+    """Let a value that is of its kind already pass: the library would load one more, that converts, to tell.
+
+    What is not, or is missing, or has more to it, is left to the library.
+    """
+    convert = parameter.process_value
+    many, kind = _kind_of(annotation)
+
+    def process(ctx: Any, value: Any) -> Any:
+        if parameter.callback is None and kind is not None and not parameter.required:
+            if value is None:
+                return () if many else None
+            if many and isinstance(value, tuple | list) and all(isinstance(each, kind) for each in value):
+                return list(value)
+        if parameter.callback is None and kind is not None and not many:
+            if isinstance(value, kind):
+                return value
+            if issubclass(kind, StrEnum) and value in list(kind):
+                return kind(value)
+        return convert(ctx, value)
+
+    parameter.process_value = process
+
+
+def _kind_of(annotation: Any) -> tuple[bool, type | None]:
+    """Return whether an annotated parameter takes a list, and of what kind, None for none of the simple ones."""
+    kind = get_args(annotation)[0] if get_origin(annotation) is Annotated else annotation
+    if get_origin(kind) is UnionType:
+        kind = next(each for each in get_args(kind) if each is not NoneType)
+    many = get_origin(kind) is list
+    kind = get_args(kind)[0] if many else kind
+    return many, kind if isinstance(kind, type) and issubclass(kind, (str, bool, PurePath)) else None
 
 
 def _flat(function: Callable[..., None]) -> Callable[..., None]:
@@ -151,6 +221,8 @@ def run(arguments: list[str]) -> int:
     InputError
         For arguments that are no command's.
     """
+    # Where it keeps its fonts, or that it cannot keep them without a home folder, is nothing that a user asked for.
+    logging.getLogger("matplotlib").setLevel(logging.ERROR)
     open_streams()
     program: Any = typer.main.get_command(_app)
     try:

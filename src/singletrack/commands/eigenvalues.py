@@ -39,7 +39,7 @@ def run(
         _on_tyres(bicycle, options, values, tyres, json=json, csv=csv)
         return
     made = model_from(bicycle, options)
-    modes = made.model.modes(values)
+    modes = made.asked.modes(values)
     if json:
         print_json(modes.to_dict())
     elif csv:

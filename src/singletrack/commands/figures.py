@@ -64,15 +64,17 @@ def check_figure(output: Path) -> None:
     check_writable(output)
 
 
-def deliver_figure(figure: Figure, output: Path) -> None:
+def deliver_figure(figure: Figure, output: Path, *, quiet: bool = False) -> None:
     """Write a figure whole, in the format of the file's suffix, and say so.
 
     Parameters
     ----------
     figure : matplotlib Figure
     output : path
+    quiet : bool
+        Say nothing: JSON is printed.
     """
-    deliver(figure_bytes(figure, output.suffix.lower().removeprefix("."), _DOTS), output)
+    deliver(figure_bytes(figure, output.suffix.lower().removeprefix("."), _DOTS), output, quiet=quiet)
 
 
 def millimetres(text: str, option: str = "--width") -> float:

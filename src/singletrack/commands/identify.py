@@ -149,7 +149,7 @@ def _published(files: list[Path], plot: Path | None, as_json: bool) -> None:
 
 def _agreement_dict(found: ModeAgreement) -> dict[str, Any]:
     def parts(values: np.ndarray) -> list[list[float]]:
-        return np.stack([values.real, values.imag], axis=-1).tolist()  # type: ignore[no-any-return]
+        return np.stack([values.real, values.imag], axis=-1).tolist()
 
     return {
         "speeds": found.speeds.tolist(),

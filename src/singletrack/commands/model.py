@@ -6,19 +6,24 @@ import importlib
 import warnings
 from dataclasses import dataclass
 from math import degrees, isfinite
+from typing import TYPE_CHECKING, cast
 
 from singletrack.body.fit import elbow_angle, fit
 from singletrack.body.oddities import warn_of_oddities
 from singletrack.commands.model_options import ModelOptions, pairs
+from singletrack.commands.sheets import bicycle_named
 from singletrack.errors import InputError, OddityWarning
-from singletrack.library import load_bicycle, load_rider
+from singletrack.library import load_rider
 from singletrack.library.load import override
 from singletrack.model import LinearModel
 from singletrack.parameters import Bicycle, Rider
 from singletrack.parameters.bicycle import FRAME_GEOMETRY
 from singletrack.parameters.hints import unknown_parameter
 from singletrack.parameters.units import parse_quantity
-from singletrack.public import CoefficientMatrices
+from singletrack.posture import Options
+
+if TYPE_CHECKING:
+    from singletrack.public import CoefficientMatrices
 
 __all__ = ["Made", "answer_words", "model_from", "seated"]
 
@@ -27,10 +32,18 @@ __all__ = ["Made", "answer_words", "model_from", "seated"]
 class Made:
     """A model, what it was made from, and a heading that says so."""
 
-    model: CoefficientMatrices
+    model: LinearModel
     bicycle: Bicycle
     rider: Rider | None
     title: str
+    sitting: Options
+
+    @property
+    def asked(self) -> CoefficientMatrices:
+        """The model as one that can be asked for eigenvalues, modes, critical speeds: not every command does."""
+        public = importlib.import_module("singletrack.public")  # a door: with all that can be asked
+        origin = None if self.rider is None else public.Origin(self.bicycle, self.rider, self.sitting)
+        return cast("CoefficientMatrices", public.CoefficientMatrices.of(self.model, origin))
 
 
 def model_from(bicycle: str, options: ModelOptions) -> Made:
@@ -47,13 +60,13 @@ def model_from(bicycle: str, options: ModelOptions) -> Made:
     SingletrackError
         If there is no such thing, or a value is not allowed.
     """
-    record, rider, changed = seated(load_bicycle(bicycle), options)
+    record, rider, changed = seated(bicycle_named(bicycle), options)
     maker = importlib.import_module(f"singletrack.{options.engine.name}")  # a door: the engine's libraries are heavy
-    model = CoefficientMatrices.of(_answered(maker.coefficients(record, rider, options.sitting), options))
+    model = _answered(maker.coefficients(record, rider, options.sitting), options)
     rider = None if rider is None else rider.on(record)
     warn_of_oddities(record, rider)
     who = "" if rider is None else f" with {rider.name or 'rider'}, {options.sitting.title}"
-    return Made(model, record, rider, f"{record.name}{who}{changed}{answer_words(options)}")
+    return Made(model, record, rider, f"{record.name}{who}{changed}{answer_words(options)}", options.sitting)
 
 
 def _answered(model: LinearModel, options: ModelOptions) -> LinearModel:

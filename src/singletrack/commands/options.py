@@ -54,7 +54,7 @@ class CentreFit(StrEnum):
     intersections = "intersections"
 
 
-BicycleArgument = Annotated[str, typer.Argument(metavar="BICYCLE", help="A shipped name or a file.")]
+BicycleArgument = Annotated[str, typer.Argument(metavar="BICYCLE", help="A shipped name, a file, or a geometry sheet.")]
 ThingArgument = Annotated[str, typer.Argument(metavar="NAME", help="A shipped name or a file in any format.")]
 SpeedsOption = Annotated[
     str,

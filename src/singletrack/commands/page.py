@@ -10,7 +10,8 @@ from typing import Annotated
 import typer
 
 from singletrack.commands.printing import deliver
-from singletrack.library import load_bicycle, load_rider
+from singletrack.commands.sheets import bicycle_named
+from singletrack.library import load_rider
 from singletrack.webpage import page
 
 __all__ = ["run"]
@@ -32,7 +33,7 @@ def run(
 ) -> None:
     """Write the page and open it."""
     made = page(
-        *(load_bicycle(name) for name in bicycles or []),
+        *(bicycle_named(name) for name in bicycles or []),
         rider=None if rider is None else load_rider(rider),
         posture=posture,
     )

@@ -122,7 +122,7 @@ def _drawn(made: Made, options: ModelOptions, speeds: np.ndarray, *, bands: bool
         _closed_form_only(options, "--bands")
         coarse = np.linspace(speeds[0], speeds[-1], 101)
         uncertainty = eigenvalue_uncertainty(made.bicycle, made.rider, options.sitting, speeds=coarse, samples=500)
-    return Drawn(made.title, made.model.modes(speeds), made.model.critical_speeds(), uncertainty)
+    return Drawn(made.title, made.asked.modes(speeds), made.asked.critical_speeds(), uncertainty)
 
 
 def _closed_form_only(options: ModelOptions, what: str) -> None:

@@ -29,7 +29,7 @@ def print_json(value: Any) -> None:
     print_plain(json.dumps(value, indent=1))
 
 
-def deliver(content: str | bytes, output: Path | None) -> None:
+def deliver(content: str | bytes, output: Path | None, *, quiet: bool = False) -> None:
     """Write a file whole and say so, or print.
 
     Parameters
@@ -37,6 +37,8 @@ def deliver(content: str | bytes, output: Path | None) -> None:
     content : str or bytes
         Bytes need an output.
     output : path, optional
+    quiet : bool
+        Do not say so.
 
     Raises
     ------
@@ -47,4 +49,5 @@ def deliver(content: str | bytes, output: Path | None) -> None:
         print_plain(str(content))
         return
     write_whole(output, content)
-    show(f"wrote {output}")
+    if not quiet:
+        show(f"wrote {output}")

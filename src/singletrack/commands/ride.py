@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import io
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -14,13 +13,14 @@ from singletrack.commands.model import answer_words, seated
 from singletrack.commands.model_options import ModelOptions
 from singletrack.commands.options import BicycleArgument, JsonOption
 from singletrack.commands.printing import deliver, print_json, show
+from singletrack.commands.sheets import bicycle_named
 from singletrack.commands.turn import number_of
 from singletrack.errors import InputError
 from singletrack.files.signals import read_signal
 from singletrack.files.source import read_text
-from singletrack.library import load_bicycle
 from singletrack.output import check_writable
 from singletrack.present.riding import animation_bytes, ride_figure
+from singletrack.present.style import figure_bytes
 from singletrack.present.tables import write_csv
 from singletrack.present.terminal import Terminal
 from singletrack.public import warn_of_oddities
@@ -58,7 +58,7 @@ def run(
 ) -> None:
     """Ride a bicycle, nonlinear, and say how it ended."""
     _check_files(output, plot, animate)
-    record, rider, changed = seated(load_bicycle(bicycle), options)
+    record, rider, changed = seated(bicycle_named(bicycle), options)
     warn_of_oddities(record, rider)
     v, until = number_of("--speed", speed, "m/s"), number_of("--for", duration, "s")
     given: Any = {
@@ -100,14 +100,12 @@ def _write(found: Ride, title: str, output: Path | None, plot: Path | None, anim
     if output is not None:
         deliver(_csv(found) if output.suffix.lower() == ".csv" else _netcdf(found, title), output)
     if plot is not None:
-        content = io.BytesIO()
         time, lean, steer = (
             found.data.time.to_numpy(),
             *(np.degrees(found.coordinate(name)) for name in ("lean", "steer")),
         )
         figure = ride_figure(time, lean, steer, _path(found), title, found.end)
-        figure.savefig(content, format=plot.suffix.lower().removeprefix("."))
-        deliver(content.getvalue(), plot)
+        deliver(figure_bytes(figure, plot.suffix.lower().removeprefix(".")), plot)
     if animate is not None:
         deliver(_animation(found, title, animate.suffix.lower()), animate)
 

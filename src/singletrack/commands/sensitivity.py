@@ -16,6 +16,7 @@ from singletrack.commands.model import model_from
 from singletrack.commands.model_options import EngineName, ModelOptions
 from singletrack.commands.options import BicycleArgument, JsonOption
 from singletrack.commands.printing import print_json, show
+from singletrack.commands.sheets import sheet_design
 from singletrack.errors import InputError
 from singletrack.files.speeds import parse_speeds
 from singletrack.parameters.units import parse_quantity
@@ -63,7 +64,9 @@ def run(
     if output is not None:
         check_figure(output)
     wide = millimetres(width)
-    design = design_from(bicycle, options)
+    design = design_from(
+        bicycle, options, [*(parameters or []), *(text.partition("=")[0].strip() for text in ranges or [])]
+    )
     if sobol:
         if output is not None:
             raise InputError("--sobol: has no tornado figure; leave -o away")
@@ -82,7 +85,7 @@ def run(
         _print(found, [result] if result else found.results, design.title, top)
 
 
-def design_from(bicycle: str, options: ModelOptions) -> Design:
+def design_from(bicycle: str, options: ModelOptions, vary: Sequence[str] | None = None) -> Design:
     """Return the design that a command's arguments ask for, after warning of what looks odd.
 
     Parameters
@@ -90,6 +93,8 @@ def design_from(bicycle: str, options: ModelOptions) -> Design:
     bicycle : str
         A shipped name or a file.
     options : ModelOptions
+    vary : sequence of str, optional
+        What will vary: of a geometry sheet its entries, and the bicycle follows. None: the bicycle's parameters vary.
 
     Raises
     ------
@@ -99,6 +104,11 @@ def design_from(bicycle: str, options: ModelOptions) -> Design:
     if options.engine is EngineName.multibody:
         raise InputError("--engine: this command takes the closed form, which has exact derivatives; leave it away")
     made = model_from(bicycle, options)
+    of_sheet = None if vary is None else sheet_design(bicycle, vary, made.rider, options.sitting, made.title)
+    if of_sheet is not None:
+        if options.settings:
+            raise InputError("--set: with a geometry sheet, change the sheet (`singletrack new` makes its bicycle)")
+        return of_sheet
     return Design.of(made.bicycle, made.rider, options.sitting, made.title)
 
 
@@ -159,10 +169,8 @@ def _sobol(design: Design, ranges: Sequence[str] | None, samples: int, seed: int
 
 def _of_deviations(design: Design) -> dict[str, tuple[float, float]]:
     """Return means and standard deviations of the parameters that have one."""
-    deviations = dict(design.bicycle.standard_deviations)
-    deviations |= {} if design.rider is None else design.rider.standard_deviations
     values = design.values()
-    found = {name: (float(values[name]), float(sd)) for name, sd in deviations.items() if name in values and sd > 0}
+    found = {name: (float(values[name]), sd) for name, sd in design.deviations().items() if name in values and sd > 0}
     if not found:
         raise InputError("--sobol: no parameter has a standard deviation; give --range NAME=LOW:HIGH")
     return found

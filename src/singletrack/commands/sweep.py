@@ -28,7 +28,8 @@ def run(
     study: Annotated[Path | None, typer.Argument(metavar="[STUDY]", help="A study file (TOML).")] = None,
     output: Annotated[Path | None, typer.Option(metavar="STORE", help="Zarr store to write.")] = None,
     scheduler: Annotated[
-        str | None, typer.Option(metavar="ADDRESS", help="A running Dask scheduler; docs/sweep.md tells its dangers.")
+        str | None,
+        typer.Option(metavar="ADDRESS", help="A running Dask scheduler; docs/howto/sweep.md tells its dangers."),
     ] = None,
     workers: Annotated[int | None, typer.Option(help="Processes on this machine; by default one a core.")] = None,
     check: Annotated[
@@ -109,7 +110,9 @@ def run_study(
         return
     refuse_existing(output)
     if scheduler is not None and not scheduler.startswith("tls://"):
-        console.print(f"{scheduler}: is not protected; whoever reaches it can run code as you do (docs/sweep.md: TLS)")
+        console.print(
+            f"{scheduler}: is not protected; whoever reaches it can run code as you do (docs/howto/sweep.md: TLS)"
+        )
     console.print(_report(_with_progress(study, output, scheduler, workers, console), study, output))
 
 

@@ -13,7 +13,7 @@ from singletrack.errors import InputError, unknown_name
 from singletrack.linear import state_space
 
 if TYPE_CHECKING:
-    from singletrack.arrays import Array
+    from singletrack.arrays import ArrayLike
     from singletrack.linear import StateSpace
     from singletrack.model import LinearModel
 
@@ -77,7 +77,7 @@ PUSH = 0.1
 
 
 def effort(
-    model: LinearModel, speeds: Array, input_name: str = "steer torque", weights: Weights | None = None
+    model: LinearModel, speeds: ArrayLike, input_name: str = "steer torque", weights: Weights | None = None
 ) -> Effort:
     """Return what an input costs at speeds (k,) in m/s, for a single design.
 

@@ -14,7 +14,7 @@ from singletrack.linear import state_space
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from singletrack.arrays import Array
+    from singletrack.arrays import ArrayLike
     from singletrack.model import LinearModel
     from singletrack.parameters.feedback import Gains
 
@@ -82,7 +82,7 @@ def _subtracted(matrix: np.ndarray, column: np.ndarray, place: int) -> np.ndarra
 
 
 def lqr_schedule(
-    model: LinearModel, speeds: Array, input_name: str = "steer torque", weights: Weights | None = None
+    model: LinearModel, speeds: ArrayLike, input_name: str = "steer torque", weights: Weights | None = None
 ) -> np.ndarray:
     """Return the gains (k, 2 n) of the best state feedback at speeds (k,), input = -gain state, by one input.
 

@@ -12,21 +12,21 @@ from singletrack.errors import InputError
 from singletrack.linear import modes, state_space
 
 if TYPE_CHECKING:
-    from singletrack.arrays import Array
+    from singletrack.arrays import ArrayLike
     from singletrack.linear import StateSpace
     from singletrack.model import LinearModel
 
 __all__ = ["distance_to_uncontrollability", "gramian", "modal_controllability"]
 
 
-def modal_controllability(model: LinearModel, speeds: Array) -> dict[str, np.ndarray]:
+def modal_controllability(model: LinearModel, speeds: ArrayLike) -> dict[str, np.ndarray]:
     """Return the angles between inputs and modes at speeds (k,), by input, shape (k, 2 n), in rad.
 
     The columns are the model's modes, in the order of their names; 90 deg: the mode is not reached.
 
     Notes
     -----
-    cos β = |vᵢ* bⱼ| / (|vᵢ| |bⱼ|) with the left eigenvector vᵢ of the state matrix and the column bⱼ of its inputs
+    ``cos β = |vᵢ* bⱼ| / (|vᵢ| |bⱼ|)`` with the left eigenvector vᵢ of the state matrix and the column bⱼ of its inputs
     (Hamdan and Nayfeh 1989, Journal of Guidance, Control, and Dynamics 12:421-428). The state is the coordinates in
     rad, then their rates in rad/s: the angle depends on these units.
 

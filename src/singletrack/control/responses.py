@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
     import xarray
 
-    from singletrack.arrays import Array
+    from singletrack.arrays import Array, ArrayLike
     from singletrack.linear import StateSpace
 
 __all__ = ["discretised", "frequency_response", "impulse_response", "response", "save_mat", "step_response"]
@@ -75,7 +75,7 @@ def discretised(system: StateSpace, step: float, *, hold: str = "zero") -> tuple
 def response(
     system: StateSpace, time: Array, inputs: Array | None = None, start: Array | None = None, *, hold: str = "first"
 ) -> xarray.Dataset:
-    """Return states over evenly spaced times (k,) for input series and a start, exact between samples as ``hold`` says.
+    """Return outputs over evenly spaced times (k,) for input series and a start, exact as ``hold`` says.
 
     Parameters
     ----------
@@ -93,7 +93,7 @@ def response(
     Returns
     -------
     xarray.Dataset
-        One variable for each state, dimensions (..., time).
+        One variable for each output, by default the states, dimensions (..., time).
 
     Raises
     ------
@@ -123,11 +123,12 @@ def response(
     for k in range(len(t) - 1):  # over time, not over systems
         now = F @ states[..., k, :, None] + (G0 @ u[k])[..., None] + (G1 @ u[k + 1])[..., None]
         states[..., k + 1, :] = now[..., 0]
+    seen = states @ np.swapaxes(system.C, -1, -2) + u @ np.swapaxes(system.D, -1, -2)
     dims = [*_batch_dims(system, shape), "time"]
     coords: dict[str, Any] = {"time": ("time", t, {"units": "s"})}
     if np.ndim(system.speed):
         coords["speed"] = ("speed", np.asarray(system.speed), {"units": "m/s"})
-    data = {name: (dims, states[..., i]) for i, name in enumerate(system.states)}
+    data = {name: (dims, seen[..., i]) for i, name in enumerate(system.outputs)}
     return xr.Dataset(data, coords=coords)
 
 
@@ -180,6 +181,10 @@ def impulse_response(system: StateSpace, time: Array, input_name: str, size: flo
         Which input acts.
     size : float
         The integral of the input over time, N m s for a torque.
+
+    Notes
+    -----
+    What an input does to an output at once (D) is an impulse itself, which is over before the first sample.
     """
     return response(system, time, start=system.B[..., _place(system, input_name)] * size)
 
@@ -190,7 +195,7 @@ def _place(system: StateSpace, input_name: str) -> int:
     return system.inputs.index(input_name)
 
 
-def frequency_response(system: StateSpace, frequencies: Array) -> xarray.DataArray:
+def frequency_response(system: StateSpace, frequencies: ArrayLike) -> xarray.DataArray:
     """Return the complex response at frequencies (k,) in rad/s: dimensions (..., frequency, output, input).
 
     Examples
@@ -204,13 +209,15 @@ def frequency_response(system: StateSpace, frequencies: Array) -> xarray.DataArr
 
     w = np.atleast_1d(np.asarray(frequencies, dtype=float))
     shifted = 1j * w[:, None, None] * np.eye(system.A.shape[-1]) - system.A[..., None, :, :]
-    values = system.C @ np.linalg.solve(shifted, system.B[..., None, :, :]) + system.D
+    values = system.C[..., None, :, :] @ np.linalg.solve(shifted, system.B[..., None, :, :]) + system.D[..., None, :, :]
     dims = [*_batch_dims(system, values.shape[:-3]), "frequency", "output", "input"]
     coords: dict[str, Any] = {
         "frequency": ("frequency", w, {"units": "rad/s"}),
-        "output": list(system.states),
+        "output": list(system.outputs),
         "input": list(system.inputs),
     }
+    if np.ndim(system.speed):
+        coords["speed"] = ("speed", np.asarray(system.speed), {"units": "m/s"})
     return xr.DataArray(values, dims=dims, coords=coords)
 
 
@@ -235,6 +242,6 @@ def save_mat(system: StateSpace, path: str | Path) -> None:
 
     content = io.BytesIO()
     matrices = {name: np.moveaxis(np.asarray(getattr(system, name)), (-2, -1), (0, 1)) for name in "ABCD"}
-    names = {key: np.array(list(getattr(system, key)), dtype=object) for key in ("states", "inputs")}
+    names = {key: np.array(list(getattr(system, key)), dtype=object) for key in ("states", "inputs", "outputs")}
     scipy.io.savemat(content, {**matrices, "speed": np.asarray(system.speed), **names}, oned_as="column")
     write_whole(path, content.getvalue())

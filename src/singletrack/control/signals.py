@@ -3,28 +3,29 @@
 from __future__ import annotations
 
 import dataclasses
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeVar
 
 import numpy as np
 
-from singletrack.body.skeleton import POINT_NAMES
-from singletrack.errors import InputError, unknown_name
+from singletrack.errors import InputError
 from singletrack.linear import StateSpace
-from singletrack.posture import Options, moved_skeleton, seat
+from singletrack.model import GROUND_ACCELERATION, LinearModel
+from singletrack.posture import Options, lateral_work, seat
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from singletrack.arrays import Array
-    from singletrack.model import LinearModel
     from singletrack.parameters import Bicycle, Rider
 
 __all__ = ["GROUND_ACCELERATION", "lateral_force", "with_ground", "with_inputs", "with_path"]
 
-GROUND_ACCELERATION = "ground acceleration"
+Model = TypeVar("Model", bound=LinearModel)
+
+_PATH = ("yaw", "rear contact y", "front contact y")
 
 
-def with_inputs(model: LinearModel, columns: Mapping[str, Array]) -> LinearModel:
+def with_inputs(model: Model, columns: Mapping[str, Array]) -> Model:
     """Return a model with further inputs.
 
     Parameters
@@ -59,7 +60,7 @@ def with_inputs(model: LinearModel, columns: Mapping[str, Array]) -> LinearModel
     return dataclasses.replace(model, B=B, inputs=(*model.inputs, *columns))
 
 
-def with_ground(model: LinearModel) -> LinearModel:
+def with_ground(model: Model) -> Model:
     """Return a model with the lateral acceleration of the ground, in m/s² to the right, as a further input.
 
     Notes
@@ -122,22 +123,12 @@ def lateral_force(
         return np.array([-z, mu * x, *[0.0] * ((freedoms or 2) - 2)])
     if rider is None:
         raise InputError(f"point {point!r}: needs a rider; x and z of a point of the rear frame need none")
-    if point not in POINT_NAMES:
-        raise InputError(unknown_name("point", point, POINT_NAMES))
     seated = seat(bicycle, rider, Options.of(options))
-    count = 1 + len(seated.freedoms)
-    place = POINT_NAMES.index(point)
-    at = seated.skeleton.points[place]
-    # The moved skeleton is exact to second order: half the difference of both ways is the first order to rounding.
-    own = [
-        (moved_skeleton(seated, bicycle, sign) - moved_skeleton(seated, bicycle, -sign))[place, 1] / 2
-        for sign in np.eye(count)
-    ]
-    return np.array([-at[2], mu * at[0] + own[0], *own[1:]], dtype=float)
+    return np.asarray(lateral_work(seated, bicycle, point), dtype=float)
 
 
 def with_path(system: StateSpace, bicycle: Bicycle) -> StateSpace:
-    """Return a single system with yaw and the rear contact's lateral place as states, the front contact's as output.
+    """Return a single system with yaw and the rear contact's lateral place as states, the front one's as output.
 
     Parameters
     ----------
@@ -173,7 +164,9 @@ def with_path(system: StateSpace, bicycle: Bicycle) -> StateSpace:
     A[size, steer], A[size, rate], A[size + 1, size] = v * cosine / base, trail * cosine / base, v
     front = np.zeros((1, size + 2))
     front[0, size + 1], front[0, size], front[0, steer] = 1.0, base, -trail * cosine
-    C = np.concatenate([np.eye(size + 2), front])
-    B = np.concatenate([system.B, np.zeros((2, m))])
-    states = (*system.states, "yaw", "rear contact y")
-    return StateSpace(A, B, C, np.zeros((size + 3, m)), system.speed, states, system.inputs)
+    seen = len(system.outputs)
+    C = np.concatenate([np.eye(seen + 2, size + 2, size - seen), front])
+    C[:seen, :size], C[:seen, size:] = system.C, 0.0
+    B, D = np.concatenate([system.B, np.zeros((2, m))]), np.concatenate([system.D, np.zeros((3, m))])
+    states, outputs = (*system.states, *_PATH[:2]), (*system.outputs, *_PATH)
+    return StateSpace(A, B, C, D, system.speed, states, system.inputs, outputs)

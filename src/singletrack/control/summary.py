@@ -15,7 +15,7 @@ from singletrack.linear import modes
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from singletrack.arrays import Array
+    from singletrack.arrays import ArrayLike
     from singletrack.model import LinearModel
 
 __all__ = ["ControlSummary", "control_summary"]
@@ -58,7 +58,7 @@ class ControlSummary:
 
 
 def control_summary(
-    model: LinearModel, speeds: Array, inputs: Sequence[str] | None = None, *, efforts: bool = True
+    model: LinearModel, speeds: ArrayLike, inputs: Sequence[str] | None = None, *, efforts: bool = True
 ) -> ControlSummary:
     """Return losses, modal angles and (if wanted) efforts at speeds (k,) in m/s, for some or all inputs.
 

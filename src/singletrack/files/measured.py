@@ -31,7 +31,7 @@ def read_measured(text: str, where: str, centre_fit: str = "perpendicular") -> M
     where : str
         The file's name, for messages.
     centre_fit : {"perpendicular", "vertical", "intersections"}
-        As for :func:`singletrack.measuring.pendulums.measure`.
+        As for :func:`singletrack.measuring.measurement.measure`.
 
     Raises
     ------

@@ -92,7 +92,7 @@ def values_by_symbol(bicycle: Bicycle) -> dict[str, tuple[float, float | None]]:
     >>> values_by_symbol(load_bicycle("stratos"))["w"]
     (1.037, None)
     """
-    deviations = bicycle.standard_deviations
+    deviations = {name: float(sd) for name, sd in bicycle.standard_deviations.items()}
     found = {SYMBOLS[name]: (float(v), deviations.get(name)) for name, v in bicycle.values().items()}
     whole = {symbol: found[symbol][0] for symbol in WHOLE_SYMBOLS}
     kept = still_split(bicycle, whole) | {s: float(v) for s, v in bicycle.extras.items() if s in _CONDITIONS}

@@ -7,7 +7,7 @@ by alpha about y, has Ixx = m (kaa² cos² + kbb² sin²), Izz = m (kaa² sin² 
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -20,7 +20,7 @@ from singletrack.parameters.symbols import NAMES
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from singletrack.arrays import Array
+    from singletrack.arrays import Number
     from singletrack.files.named_values import NamedValues
 
 __all__ = ["bicycle_from_principal", "principal_values"]
@@ -83,12 +83,12 @@ def _dependent(p: Mapping[str, float]) -> dict[str, float]:
     return {**zero, "kFbb": p["kFaa"], "kRbb": p["kRaa"], "xF": p["w"], "zR": -p["rR"], "zF": -p["rF"]}
 
 
-def _benchmark(p: Mapping[str, float]) -> dict[str, Array]:
+def _benchmark(p: Mapping[str, float]) -> dict[str, Any]:
     """Return our parameters from those of a principal set."""
     # Masses and radii near the largest double overflow; the record then refuses what is not finite.
     with np.errstate(all="ignore"):
         rear = PlanarBody.of(combine([_body(p, "D").body(), _body(p, "P").body()]))
-    found: dict[str, Array] = {NAMES[symbol]: p[symbol] for symbol in _SAME}
+    found: dict[str, float] = {NAMES[symbol]: p[symbol] for symbol in _SAME}
     found |= frame_parameters("rear", rear) | frame_parameters("front", _body(p, "H"))
     for end, letter in (("rear", "R"), ("front", "F")):
         for axes, radius in (("xx", "aa"), ("yy", "yy")):
@@ -148,6 +148,6 @@ def _principal(body: PlanarBody, letter: str) -> dict[str, float]:
     }
 
 
-def _gyration(moment: float, mass: float) -> float:
+def _gyration(moment: Number, mass: Number) -> float:
     """Return a radius of gyration: zero for a massless wheel, and for a moment of a rod that rounds to below zero."""
     return math.sqrt(max(float(moment), 0.0) / float(mass)) if mass else 0.0

@@ -16,6 +16,7 @@ from singletrack.parameters.units import parse_quantity
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
+    from singletrack.arrays import Number
     from singletrack.parameters.record import Parameter, Record
 
 __all__ = ["quantity_text", "unit_text", "write_toml"]
@@ -98,7 +99,7 @@ def unit_text(unit: str) -> str:
     return "deg" if unit == "rad" else unit.replace("**", "^")
 
 
-def quantity_text(value: float, deviation: float | None, unit: str) -> str:
+def quantity_text(value: float, deviation: Number | None, unit: str) -> str:
     """Return a number as TOML, with its unit; angles in degrees where that loses nothing.
 
     Parameters

@@ -10,7 +10,7 @@ from __future__ import annotations
 import itertools
 import math
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, cast
 
 from singletrack.errors import InputError
 from singletrack.files.format import Format
@@ -19,7 +19,6 @@ from singletrack.files.yeadon_body import make_human, segment_bodies, shape_of
 from singletrack.parameters.rider import MASS_FRACTIONS, Rider
 
 if TYPE_CHECKING:
-    from singletrack.arrays import Array
     from singletrack.files.named_values import NamedValues
 
 __all__ = ["CONFIGURATION", "FORMAT", "MEASUREMENTS", "read_configuration", "read_yeadon"]
@@ -110,8 +109,8 @@ def read_yeadon(text: str, where: str, forward_lean_angle: float | None = None) 
     segments = segment_bodies(human)
     lengths = _lengths(human.meas)
     total = sum(MASS_FRACTIONS[f"{name}_mass_fraction"] * body[0] for name, body in segments.items())
-    values: dict[str, Array] = {**lengths, **_outlines(human.meas)}
-    fractions: dict[str, Array] = {f"{name}_mass_fraction": float(body[0] / total) for name, body in segments.items()}
+    values: dict[str, Any] = {**lengths, **_outlines(human.meas)}
+    fractions: dict[str, Any] = {f"{name}_mass_fraction": float(body[0] / total) for name, body in segments.items()}
     spans = {name: lengths.get(f"{name}_length", values["head_circumference"] / (2 * math.pi)) for name in segments}
 
     def make() -> Rider:
@@ -120,7 +119,7 @@ def read_yeadon(text: str, where: str, forward_lean_angle: float | None = None) 
             description="From Yeadon's 95 measurements",
             source=f"measurements {Path(where).name}, solids of the yeadon package",
             rider_mass=float(total),
-            forward_lean_angle=forward_lean_angle,
+            forward_lean_angle=cast("float", forward_lean_angle),  # None: as for a rider of our own files
             shapes={name: shape_of(body, spans[name]) for name, body in segments.items()},
             **values,
             **fractions,

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import dataclasses
+import tomllib
 from importlib import resources
 from pathlib import Path
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from singletrack.errors import InputError, SingletrackError, shown, unknown_name
 from singletrack.files.registry import read_any, read_bicycle, read_rider
@@ -17,11 +18,10 @@ from singletrack.parameters.units import parse_quantity
 if TYPE_CHECKING:
     from importlib.resources.abc import Traversable
 
-    from singletrack.arrays import Array
     from singletrack.parameters.bicycle import Bicycle
     from singletrack.parameters.rider import Rider
 
-__all__ = ["load_any", "load_bicycle", "load_rider", "override", "shipped"]
+__all__ = ["descriptions", "load_any", "load_bicycle", "load_rider", "override", "shipped"]
 
 R = TypeVar("R", bound=Record)
 
@@ -31,7 +31,7 @@ def shipped(kind: str) -> dict[str, Traversable]:
 
     Parameters
     ----------
-    kind : {"bicycle", "rider"}
+    kind : {"bicycle", "rider", "posture"}
 
     Examples
     --------
@@ -44,6 +44,23 @@ def shipped(kind: str) -> dict[str, Traversable]:
         key=lambda file: file.name.removesuffix(".toml"),
     )
     return {file.name.removesuffix(".toml"): file for file in files}
+
+
+def descriptions(kind: str) -> dict[str, str]:
+    """Return what the shipped files of a kind say about themselves, by name, without reading the rest of them.
+
+    Parameters
+    ----------
+    kind : {"bicycle", "rider", "posture"}
+
+    Examples
+    --------
+    >>> descriptions("bicycle")["stratos"] == load_bicycle("stratos").description
+    True
+    """
+    return {
+        name: tomllib.loads(file.read_text(encoding="utf-8"))["description"] for name, file in shipped(kind).items()
+    }
 
 
 def load_bicycle(name_or_path: str | Path) -> Bicycle:
@@ -138,7 +155,7 @@ def override(record: R, texts: dict[str, str], where: str = "--set") -> R:
     """
     descriptions = record.descriptions()
     record.require_known(dict.fromkeys(name for name in texts if name not in descriptions))
-    changes: dict[str, Array] = {}
+    changes: dict[str, Any] = {}
     deviations = dict(record.standard_deviations)
     for name, text in texts.items():
         try:

@@ -13,7 +13,7 @@ from singletrack.linear.pencil import pencil
 from singletrack.linear.quartic.solve import CHUNK, quartic_roots, solve_into
 
 if TYPE_CHECKING:
-    from singletrack.arrays import Array
+    from singletrack.arrays import Array, ArrayLike
     from singletrack.linear.characteristic import CharacteristicPolynomial
     from singletrack.model import LinearModel
 
@@ -24,7 +24,7 @@ _PROBLEMS = 4096
 __all__ = ["checked_speeds", "eigenmotions", "eigenvalues"]
 
 
-def checked_speeds(speeds: Array) -> np.ndarray:
+def checked_speeds(speeds: ArrayLike) -> np.ndarray:
     """Return speeds as an array (n,) in m/s.
 
     Raises
@@ -47,7 +47,7 @@ def checked_speeds(speeds: Array) -> np.ndarray:
     return array
 
 
-def eigenvalues(model: LinearModel, speeds: Array) -> Array:
+def eigenvalues(model: LinearModel, speeds: ArrayLike) -> Array:
     """Return the eigenvalues (..., k, 2 n) in 1/s at speeds (k,) in m/s, sorted by real then imaginary part.
 
     Roots of a pair are exact conjugates, real roots have an imaginary part of exactly zero. Designs of a batch that
@@ -83,8 +83,19 @@ def eigenvalues(model: LinearModel, speeds: Array) -> Array:
             roots = _roots_at(polynomials, v).reshape(*batch, len(v), 4)
         else:
             roots = quartic_roots(*monic_quartic(model.M, *at_speeds(model, v)))
+    lost = np.isnan(roots[..., 0].real)
+    if lost.any() and (lost := lost & model.valid[..., None]).any():
+        roots = _told_otherwise(model, v, roots, lost)
     if model.faults:
         roots = np.where(model.valid[..., None, None], roots, np.nan)
+    return roots
+
+
+def _told_otherwise(model: LinearModel, v: np.ndarray, roots: np.ndarray, lost: np.ndarray) -> np.ndarray:
+    """Return roots (..., k, 4) with the lost ones, whose quartic was out of range, found in other units."""
+    designs = lost.any(axis=-1)
+    some = model.broadcast_to(model.shape)[designs]
+    roots[designs] = np.where(lost[designs][..., None], _by_lapack(some, v), roots[designs])
     return roots
 
 
@@ -116,7 +127,7 @@ def _by_lapack(model: LinearModel, v: np.ndarray) -> np.ndarray:
     return roots.reshape(*batch, *roots.shape[1:])
 
 
-def _one_axis(speeds: Array) -> Array:
+def _one_axis(speeds: ArrayLike) -> Array:
     xp, (v,) = as_arrays(speeds)
     return xp.reshape(v, (-1,))
 
@@ -167,7 +178,7 @@ def monic_quartic(M: Array, damping: Array, stiffness: Array) -> tuple[Array, Ar
     return b, c, mixed(damping, stiffness) / lead, mixed(stiffness, stiffness) / 2 / lead
 
 
-def eigenmotions(model: LinearModel, speeds: Array, roots: np.ndarray) -> np.ndarray:
+def eigenmotions(model: LinearModel, speeds: ArrayLike, roots: np.ndarray) -> np.ndarray:
     """Return the eigenmotion of each root: every coordinate, with lean normalised to one.
 
     Parameters

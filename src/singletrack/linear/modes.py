@@ -31,7 +31,7 @@ from singletrack.model import COORDINATES
 if TYPE_CHECKING:
     import xarray
 
-    from singletrack.arrays import Array
+    from singletrack.arrays import ArrayLike
     from singletrack.linear.characteristic import CharacteristicPolynomial
     from singletrack.model import LinearModel
 
@@ -59,7 +59,7 @@ class Modes:
     coordinates : tuple of str
         Names of the n coordinates.
     dominant : int array, shape (..., k, 2 n)
-        Which coordinate takes most part in each motion, in units that make masses alike: |q_i|² M_ii is largest.
+        Which coordinate takes most part in each motion, in units that make masses alike: ``|q_i|² M_ii`` is largest.
     """
 
     speeds: np.ndarray
@@ -131,7 +131,7 @@ class Modes:
         )
 
 
-def modes(model: LinearModel, speeds: Array) -> Modes:
+def modes(model: LinearModel, speeds: ArrayLike) -> Modes:
     """Return the named modes of designs (...) at speeds (k,).
 
     Parameters

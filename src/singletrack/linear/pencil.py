@@ -115,7 +115,7 @@ def pencil(model: LinearModel) -> tuple[Pencil, tuple[int, ...]]:
         double = d[:, :, None] * d[:, None, :]
         names = ("M", "C0", "C1", "S0", "K0", "K2")
         M, C0, C1, S0, K0, K2 = (np.asarray(getattr(whole, a), dtype=float).reshape(-1, n, n) * double for a in names)
-        weight = whole.gravity.reshape(-1, 1, 1) * K0
+        weight = np.reshape(whole.gravity, (-1, 1, 1)) * K0
         parts = np.stack([C0, C1, S0 + weight, K2, weight])
         told = np.isfinite(M).all(axis=(-2, -1)) & np.isfinite(parts).all(axis=(0, -2, -1)) & whole.valid.ravel()
         M = np.where(told[:, None, None], M, np.eye(n))

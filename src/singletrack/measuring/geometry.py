@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -71,7 +71,7 @@ def handlebar_reference(m: Mapping[str, np.ndarray], tilt: np.ndarray) -> tuple[
     return across * np.cos(tilt) - along * np.sin(tilt), -across * np.sin(tilt) - along * np.cos(tilt)
 
 
-def seat_geometry(m: Mapping[str, np.ndarray], p: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
+def seat_geometry(m: Mapping[str, np.ndarray], p: Mapping[str, Any]) -> dict[str, np.ndarray]:
     """Return the frame geometry that seats a rider, as far as it was measured, by symbol.
 
     Parameters

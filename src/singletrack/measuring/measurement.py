@@ -19,6 +19,8 @@ from singletrack.parameters.symbols import GEOMETRY_SYMBOLS, MODEL_SYMBOLS, NAME
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
+    from singletrack.arrays import Number
+
 __all__ = ["Measurement", "measure"]
 
 _STEP = 1e-30
@@ -121,11 +123,11 @@ def _propagated(
     return values, scaled @ scaled.T, {_BODIES[letter]: line[:, 0].real for letter, line in lines.items()}
 
 
-def _by_symbol(m: Mapping[str, np.ndarray], centre_fit: str) -> tuple[dict[str, np.ndarray], dict[str, np.ndarray]]:
+def _by_symbol(m: Mapping[str, np.ndarray], centre_fit: str) -> tuple[dict[str, Number], dict[str, np.ndarray]]:
     """Return parameters by symbol from measurements by name, both (k,) over the steps, and plumb lines by body."""
     rear, front = wheel_radius(m, "R"), wheel_radius(m, "F")
     base, tilt, trail = steer_geometry(m, rear, front)
-    p = {"w": base, "c": trail, "lam": tilt, "g": m["g"], "rR": rear, "rF": front}
+    p: dict[str, Number] = {"w": base, "c": trail, "lam": tilt, "g": m["g"], "rR": rear, "rF": front}
     stiffness = rod_stiffness(m)
     for wheel in "RF":
         p[f"m{wheel}"] = m[f"m{wheel}"]
@@ -136,7 +138,8 @@ def _by_symbol(m: Mapping[str, np.ndarray], centre_fit: str) -> tuple[dict[str, 
         references |= {"G": (base + x, z - front), "S": (base, -front)}
     else:
         references["H"] = (base, -front)
-    bodies, lines = {}, {}
+    bodies: dict[str, PlanarBody] = {}
+    lines: dict[str, np.ndarray] = {}
     for letter, reference in references.items():
         bodies[letter], lines[letter] = hung_body(m, letter, reference, tilt, stiffness, centre_fit)
     if "G" in bodies:

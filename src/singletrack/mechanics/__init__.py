@@ -1,5 +1,5 @@
 """Rigid bodies and uniform solids."""
 
-from singletrack.mechanics.rigid import Body, PlanarBody, combine
+from singletrack.mechanics.rigid import PlanarBody, RigidBody, combine
 
-__all__ = ["Body", "PlanarBody", "combine"]
+__all__ = ["PlanarBody", "RigidBody", "combine"]

@@ -4,17 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Sequence  # noqa: TC003  # part of the public signature
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from singletrack.arrays import Array, dot, namespace, stack, vector
+from singletrack.arrays import Array, Number, dot, namespace, stack, vector
 
-__all__ = ["Body", "PlanarBody", "combine", "point_inertia", "principal_in_plane"]
+__all__ = ["PlanarBody", "RigidBody", "combine", "point_inertia", "principal_in_plane"]
 
 
 @dataclass(frozen=True, eq=False)
-class Body:
+class RigidBody:
     """A rigid body in the bicycle's frame (x forward, y right, z down, origin at the rear contact).
 
     Attributes
@@ -27,7 +27,7 @@ class Body:
         Inertia tensor about the centre of mass, along the axes of the frame, in kg m^2.
     """
 
-    mass: Array
+    mass: Number
     centre: Array
     inertia: Array
 
@@ -35,14 +35,14 @@ class Body:
         """Return the inertia tensor (..., 3, 3) about a point (..., 3), in kg m^2 (parallel axes theorem).
 
         >>> import numpy as np
-        >>> ball = Body(2.0, np.array([0.0, 0.0, -1.0]), 0.1 * np.eye(3))
+        >>> ball = RigidBody(2.0, np.array([0.0, 0.0, -1.0]), 0.1 * np.eye(3))
         >>> np.diag(ball.inertia_about(np.zeros(3))).tolist()
         [2.1, 2.1, 0.1]
         """
         return self.inertia + point_inertia(self.mass, self.centre - point)
 
 
-def point_inertia(mass: Array, arm: Array) -> Array:
+def point_inertia(mass: Number, arm: Array) -> Array:
     """Return the inertia tensor (..., 3, 3) of a point mass (...) at an arm (..., 3), in kg m^2."""
     xp = namespace(mass, arm)
     mass = xp.asarray(mass)[..., None, None]
@@ -50,19 +50,20 @@ def point_inertia(mass: Array, arm: Array) -> Array:
     return mass * (square - arm[..., :, None] * arm[..., None, :])
 
 
-def combine(bodies: Sequence[Body]) -> Body:
+def combine(bodies: Sequence[RigidBody]) -> RigidBody:
     """Return several bodies as one rigid body.
 
     >>> import numpy as np
-    >>> left, right = (Body(1.0, np.array([0.0, y, 0.0]), np.zeros((3, 3))) for y in (-1.0, 1.0))
+    >>> left, right = (RigidBody(1.0, np.array([0.0, y, 0.0]), np.zeros((3, 3))) for y in (-1.0, 1.0))
     >>> both = combine([left, right])
     >>> float(both.mass), both.centre.tolist(), np.diag(both.inertia).tolist()
     (2.0, [0.0, 0.0, 0.0], [2.0, 0.0, 2.0])
     """
     xp = namespace(*(body.centre for body in bodies))
-    mass = sum(xp.asarray(body.mass) for body in bodies)
+    mass: Any = sum(xp.asarray(body.mass) for body in bodies)
     centre = sum(xp.asarray(body.mass)[..., None] * body.centre for body in bodies) / mass[..., None]
-    return Body(mass, centre, sum(body.inertia_about(centre) for body in bodies))
+    inertia: Any = sum(body.inertia_about(centre) for body in bodies)
+    return RigidBody(mass, centre, inertia)
 
 
 class PlanarBody(NamedTuple):
@@ -78,32 +79,32 @@ class PlanarBody(NamedTuple):
         Entries of the inertia tensor about the centre of mass in kg m^2.
     """
 
-    mass: Array
-    x: Array
-    z: Array
-    xx: Array
-    yy: Array
-    zz: Array
-    xz: Array
+    mass: Number
+    x: Number
+    z: Number
+    xx: Number
+    yy: Number
+    zz: Number
+    xz: Number
 
-    def body(self) -> Body:
+    def body(self) -> RigidBody:
         """Return the same body with its centre (..., 3) and its tensor (..., 3, 3).
 
         >>> PlanarBody(2.0, 0.5, -1.0, 0.1, 0.2, 0.3, 0.05).body().inertia.tolist()
         [[0.1, 0.0, 0.05], [0.0, 0.2, 0.0], [0.05, 0.0, 0.3]]
         """
         rows = [vector(self.xx, 0.0, self.xz), vector(0.0, self.yy, 0.0), vector(self.xz, 0.0, self.zz)]
-        return Body(self.mass, vector(self.x, 0.0, self.z), stack(rows, -2))
+        return RigidBody(self.mass, vector(self.x, 0.0, self.z), stack(rows, -2))
 
     @classmethod
-    def of(cls, body: Body) -> PlanarBody:
+    def of(cls, body: RigidBody) -> PlanarBody:
         """Return a body by its entries; products of inertia that symmetry makes zero are left out."""
         centre, tensor = body.centre, body.inertia
         moments = (tensor[..., 0, 0], tensor[..., 1, 1], tensor[..., 2, 2], tensor[..., 0, 2])
         return cls(body.mass, centre[..., 0], centre[..., 2], *moments)
 
 
-def principal_in_plane(xx: Array, zz: Array, xz: Array) -> tuple[Array, Array, Array]:
+def principal_in_plane(xx: Number, zz: Number, xz: Number) -> tuple[Array, Array, Array]:
     """Return the principal moments in the x-z plane and the direction of the larger one's axis.
 
     Parameters

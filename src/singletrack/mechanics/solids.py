@@ -2,19 +2,19 @@
 
 from __future__ import annotations
 
-from singletrack.arrays import Array, as_arrays, cross, unit_vector, vector
+from singletrack.arrays import Array, Number, as_arrays, cross, unit_vector, vector
 
 __all__ = ["cylinder_inertia", "gyration_inertia", "prism_inertia", "sphere_inertia"]
 
 
-def _about_axis(axis: Array, along: Array, across: Array) -> Array:
+def _about_axis(axis: Array, along: Number, across: Number) -> Array:
     """Return the tensor with moment ``along`` about a unit axis (..., 3) and ``across`` about any normal to it."""
     xp, (axis, along, across) = as_arrays(axis, along, across)
     scaled = (along - across)[..., None] * axis
     return scaled[..., :, None] * axis[..., None, :] + across[..., None, None] * xp.eye(3, dtype=axis.dtype)
 
 
-def cylinder_inertia(mass: Array, radius: Array, length: Array, axis: Array) -> Array:
+def cylinder_inertia(mass: Number, radius: Number, length: Number, axis: Array) -> Array:
     """Return the inertia (..., 3, 3) in kg m^2 of a solid cylinder about its centre.
 
     Parameters
@@ -33,7 +33,7 @@ def cylinder_inertia(mass: Array, radius: Array, length: Array, axis: Array) -> 
     return _about_axis(axis, mass * radius**2 / 2, mass * (3 * radius**2 + length**2) / 12)
 
 
-def sphere_inertia(mass: Array, radius: Array) -> Array:
+def sphere_inertia(mass: Number, radius: Number) -> Array:
     """Return the inertia (..., 3, 3) in kg m^2 of a solid sphere of mass (...) kg and radius (...) m.
 
     >>> sphere_inertia(5.0, 1.0)[0].tolist()
@@ -43,7 +43,7 @@ def sphere_inertia(mass: Array, radius: Array) -> Array:
     return moment[..., None, None] * xp.eye(3, dtype=moment.dtype)
 
 
-def prism_inertia(mass: Array, length: Array, width: Array, thickness: Array, axis: Array) -> Array:
+def prism_inertia(mass: Number, length: Number, width: Number, thickness: Number, axis: Array) -> Array:
     """Return the inertia (..., 3, 3) in kg m^2 of a solid rectangular prism about its centre.
 
     Parameters
@@ -63,7 +63,7 @@ def prism_inertia(mass: Array, length: Array, width: Array, thickness: Array, ax
     return _about_three_axes(axis, along, sideways, mass * (length**2 + width**2) / 12)
 
 
-def gyration_inertia(mass: Array, along: Array, sideways: Array, across: Array, axis: Array) -> Array:
+def gyration_inertia(mass: Number, along: Number, sideways: Number, across: Number, axis: Array) -> Array:
     """Return the inertia (..., 3, 3) in kg m^2 of a body with given radii of gyration about its centre.
 
     Parameters
@@ -82,7 +82,7 @@ def gyration_inertia(mass: Array, along: Array, sideways: Array, across: Array, 
     return _about_three_axes(axis, mass * along**2, mass * sideways**2, mass * across**2)
 
 
-def _about_three_axes(axis: Array, along: Array, sideways: Array, across: Array) -> Array:
+def _about_three_axes(axis: Array, along: Number, sideways: Number, across: Number) -> Array:
     """Return the tensor with given moments about a unit axis, y (or nearest to it), and the normal to both."""
     normal = unit_vector(vector(-axis[..., 2], 0.0 * axis[..., 1], axis[..., 0]))
     aside = cross(normal, axis)

@@ -1,5 +1,6 @@
 """The record at the heart: one linear model, whoever made it and whoever asks it."""
 
-from singletrack.model.record import COORDINATES, INPUTS, LinearModel, concatenate
+from singletrack.model.outputs import Outputs
+from singletrack.model.record import COORDINATES, GROUND_ACCELERATION, INPUTS, LinearModel, concatenate
 
-__all__ = ["COORDINATES", "INPUTS", "LinearModel", "concatenate"]
+__all__ = ["COORDINATES", "GROUND_ACCELERATION", "INPUTS", "LinearModel", "Outputs", "concatenate"]

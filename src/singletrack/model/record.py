@@ -10,11 +10,11 @@ from __future__ import annotations
 
 import dataclasses
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, Self
+from typing import TYPE_CHECKING, Any, Self, cast
 
 import numpy as np
 
-from singletrack.arrays import Array, Fault, is_concrete, namespace, valid_mask
+from singletrack.arrays import Array, Fault, Number, is_concrete, namespace, valid_mask
 from singletrack.errors import InputError
 from singletrack.model.written import read_fields
 
@@ -23,11 +23,13 @@ if TYPE_CHECKING:
 
     import xarray
 
-__all__ = ["COORDINATES", "INPUTS", "UNITS", "LinearModel", "concatenate"]
+__all__ = ["COORDINATES", "GROUND_ACCELERATION", "INPUTS", "UNITS", "LinearModel", "concatenate"]
 
 #: The coordinates that every bicycle has, and the torques that do work on them.
 COORDINATES = ("lean", "steer")
 INPUTS = ("lean torque", "steer torque")
+#: The input of a ground that moves sideways, m/s² to the right.
+GROUND_ACCELERATION = "ground acceleration"
 
 #: Units of the matrices' entries, for angles in rad and torques in N m.
 UNITS = {"M": "kg m^2", "C0": "N m s", "C1": "kg m", "S0": "N m", "K0": "kg m", "K2": "kg", "B": ""}
@@ -70,21 +72,26 @@ class LinearModel:
     C1: Array
     K0: Array
     K2: Array
-    gravity: Array
+    gravity: Number
     faults: tuple[Fault, ...] = ()
-    C0: Array = field(default=None, kw_only=True)
-    S0: Array = field(default=None, kw_only=True)
-    B: Array = field(default=None, kw_only=True)
+    # None: zero, and B takes each input to the coordinate in its place.
+    C0: Array = field(default=cast("Array", None), kw_only=True)
+    S0: Array = field(default=cast("Array", None), kw_only=True)
+    B: Array = field(default=cast("Array", None), kw_only=True)
     coordinates: tuple[str, ...] = field(default=COORDINATES, kw_only=True)
     inputs: tuple[str, ...] = field(default=INPUTS, kw_only=True)
 
     def __post_init__(self) -> None:
         n, m = len(self.coordinates), len(self.inputs)
-        for name, default in (("C0", np.zeros((n, n))), ("S0", np.zeros((n, n))), ("B", np.eye(n, m))):
-            if getattr(self, name) is None:
-                object.__setattr__(self, name, default)
-        for name, wanted in {**dict.fromkeys(_SQUARE, (n, n)), "B": (n, m)}.items():
-            found = np.shape(getattr(self, name))
+        own, square = self.__dict__, (n, n)
+        for name in ("C0", "S0"):
+            if own[name] is None:
+                own[name] = np.zeros(square)
+        if own["B"] is None:
+            own["B"] = np.eye(n, m)
+        for name in (*_SQUARE, "B"):
+            value, wanted = own[name], square if name != "B" else (n, m)
+            found = value.shape if type(value) is np.ndarray else np.shape(value)
             if found[-2:] != wanted:
                 raise InputError(f"{name}: has shape {found}, must be (..., {wanted[0]}, {wanted[1]}) for the names")
 
@@ -114,18 +121,18 @@ class LinearModel:
         """True for the designs of the batch that nothing is wrong with, shape (...)."""
         return valid_mask(self.faults, self.shape)
 
-    def damping(self, speed: Array) -> Array:
+    def damping(self, speed: Number) -> Array:
         """Return C0 + v C1, shape (..., n, n), in N m s, at speeds (...) in m/s."""
         moving = _matrixwise(speed, self.C1) * self.C1
         return moving if self.is_undamped else self.C0 + moving
 
-    def stiffness(self, speed: Array) -> Array:
+    def stiffness(self, speed: Number) -> Array:
         """Return S0 + g K0 + v^2 K2, shape (..., n, n), in N m, at speeds (...) in m/s."""
         moving = _matrixwise(self.gravity, self.K0) * self.K0 + _matrixwise(speed, self.K2) ** 2 * self.K2
         return moving if self.is_undamped else self.S0 + moving
 
     def broadcast_to(self, shape: tuple[int, ...]) -> Self:
-        """Return the model with every matrix of the full shape (*shape, n, n), gravity (*shape,), as NumPy arrays."""
+        """Return the model with matrices of the full shape ``(*shape, n, n)``, gravity ``(*shape,)``, in NumPy."""
         fields = {name: np.asarray(getattr(self, name)) for name in (*_SQUARE, "B")}
         full: dict[str, Any] = {name: np.broadcast_to(a, (*shape, *a.shape[-2:])) for name, a in fields.items()}
         full["gravity"] = np.broadcast_to(np.asarray(self.gravity, dtype=float), shape)
@@ -138,7 +145,7 @@ class LinearModel:
         of_batch = index if isinstance(index, tuple) else (index,)
         of_matrix = (*of_batch, slice(None), slice(None)) if any(i is Ellipsis for i in of_batch) else of_batch
         some: dict[str, Any] = {name: getattr(whole, name)[of_matrix] for name in (*_SQUARE, "B")}
-        some["gravity"] = whole.gravity[of_batch]
+        some["gravity"] = np.asarray(whole.gravity)[of_batch]
         return dataclasses.replace(whole, **some, faults=tuple(fault[index] for fault in whole.faults))
 
     def to_dict(self) -> dict[str, Any]:
@@ -163,7 +170,7 @@ class LinearModel:
         ------
         InputError
             If matrices are missing, unknown, of another shape or not finite, M is not symmetric positive definite or
-            K0 not symmetric; of a batch, such designs become :attr:`faults`.
+            K0 not symmetric; of a batch, such designs become its ``faults``.
 
         Examples
         --------
@@ -230,5 +237,5 @@ def concatenate(models: Sequence[LinearModel]) -> LinearModel:
     return dataclasses.replace(first, **joined, faults=tuple(faults))
 
 
-def _matrixwise(factor: Array, matrix: Array) -> Array:
+def _matrixwise(factor: Number, matrix: Array) -> Array:
     return namespace(factor, matrix).asarray(factor)[..., None, None]

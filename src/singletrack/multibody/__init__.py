@@ -32,6 +32,7 @@ from singletrack.multibody.engine.kept import compile_equations
 from singletrack.multibody.engine.limits import Limit, Reach
 from singletrack.multibody.engine.linearise import Linearisation, linearise
 from singletrack.multibody.engine.model import Model, State, build
+from singletrack.multibody.engine.prescribed import Prescribed
 from singletrack.multibody.engine.reactions import (
     Buckling,
     Reaction,
@@ -59,6 +60,7 @@ __all__ = [
     "Linearisation",
     "Model",
     "Motion",
+    "Prescribed",
     "Pulse",
     "Ratio",
     "Reach",

@@ -9,7 +9,7 @@ from singletrack.mechanics.rigid import PlanarBody, combine
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from singletrack.arrays import Array
+    from singletrack.arrays import Number
     from singletrack.parameters.bicycle import Bicycle
 
 __all__ = ["bicycle_bodies", "bodies_of_values", "frame_parameters", "with_rigid_rider"]
@@ -36,7 +36,7 @@ def bicycle_bodies(bicycle: Bicycle) -> dict[str, PlanarBody]:
     return bodies_of_values(bicycle.values())
 
 
-def bodies_of_values(values: Mapping[str, Array]) -> dict[str, PlanarBody]:
+def bodies_of_values(values: Mapping[str, Number]) -> dict[str, PlanarBody]:
     """Return the four bodies of parameters by name, as kernels have them (see :func:`bicycle_bodies`).
 
     Parameters

@@ -5,8 +5,10 @@ Validation, file reading, templates, tables and schemas all read this descriptio
 
 from __future__ import annotations
 
+import sys
 from dataclasses import dataclass, field
-from math import inf, isfinite, pi
+from functools import cached_property
+from math import inf, isfinite, nextafter, pi
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -17,10 +19,11 @@ from singletrack.errors import InputError
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
-    from singletrack.arrays import Array
+    from singletrack.arrays import Array, Number
 
 __all__ = ["ALLOWED", "BOUNDS", "Parameter", "faults_of_value", "parameter"]
 
+_MAX, _TINY = sys.float_info.max, nextafter(0.0, 1.0)
 #: Kinds of allowed values: the words a user reads, and a test on floats and NumPy arrays (finite is tested before).
 ALLOWED: dict[str, tuple[str, Callable[[Any], Any]]] = {
     "any": ("a finite number", lambda x: x == x),  # noqa: PLR0124  # true for all finite numbers
@@ -39,6 +42,18 @@ BOUNDS: dict[str, tuple[float, float]] = {
     "kg": (1e-6, 1000.0),
     "kg*m**2": (0.0, 1e5),
     "m/s**2": (1e-6, 1000.0),
+    "N*m/rad": (1e-6, 1e12),
+    "N*m*s/rad": (0.0, 1e12),
+}
+#: The least and the largest double of each kind of allowed values.
+_ENDS = {
+    "any": (-_MAX, _MAX),
+    "positive": (_TINY, _MAX),
+    "not negative": (0.0, _MAX),
+    "angle": (_TINY, nextafter(pi / 2, 0)),
+    "tilt": (nextafter(-pi / 2, 0), nextafter(pi / 2, 0)),
+    "above ground": (-_MAX, -_TINY),
+    "fraction": (_TINY, nextafter(1.0, 0)),
 }
 _SMALL_UNITS = {"m": "mm", "kg": "g"}
 
@@ -80,6 +95,16 @@ class Parameter:
         divides = self.allowed == "positive" or (self.allowed == "not negative" and self.unit == "m")
         return (least if divides else 0.0), min(most, self.most)
 
+    @cached_property
+    def plain(self) -> tuple[float, float]:
+        """Ends of a range of doubles that are sound without any doubt; zero may be sound beside it.
+
+        >>> parameter("m", "c", "length", group="").metadata["parameter"].plain
+        (1e-06, 100.0)
+        """
+        (low, high), (least, most) = _ENDS[self.allowed], self.bounds
+        return max(low, least if low >= 0 else -most), min(high, most)
+
 
 def parameter(
     unit: str,
@@ -96,7 +121,7 @@ def parameter(
     return field(default=None, metadata=metadata)  # what is missing is told by the record, all at once
 
 
-def faults_of_value(name: str, value: Array, description: Parameter) -> Iterator[Fault]:
+def faults_of_value(name: str, value: Number, description: Parameter) -> Iterator[Fault]:
     """Yield what is wrong with one parameter: not finite, not allowed, beyond all bounds.
 
     A sound float yields nothing.

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
-from singletrack.arrays import Array, is_concrete
+from singletrack.arrays import Number, is_concrete
 from singletrack.markup import table, told
 
 if TYPE_CHECKING:
@@ -28,11 +28,11 @@ class _Described(Protocol):
     @property
     def description(self) -> str: ...
     @property
-    def standard_deviations(self) -> Mapping[str, Array]: ...
+    def standard_deviations(self) -> Mapping[str, Number]: ...
     @property
     def shape(self) -> tuple[int, ...]: ...
     def descriptions(self) -> dict[str, Parameter]: ...
-    def values(self) -> dict[str, Array]: ...
+    def values(self) -> dict[str, Number]: ...
 
 
 def line_of(record: _Described, names: Sequence[str]) -> str:
@@ -82,7 +82,7 @@ def _rows(record: _Described) -> Iterator[list[str]]:
         yield [name, description.symbol, _value(value, description.unit), spread, description.meaning]
 
 
-def _value(value: Array, unit: str) -> str:
+def _value(value: Number, unit: str) -> str:
     """Return a value with its unit; a batch as its least and its greatest."""
     factor, unit = (degrees(1.0), "deg") if unit == "rad" else (1.0, unit.replace("**", "^"))
     if not is_concrete(value):

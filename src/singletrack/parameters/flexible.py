@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from singletrack.arrays import Array, as_arrays, vector
+from singletrack.arrays import Array, Number, as_arrays, vector
 from singletrack.parameters.hinge_rules import FORK_BENDING, FRAME_TORSION, HINGE_PARAMETERS
 
 if TYPE_CHECKING:
@@ -32,8 +32,8 @@ class SoftHinge:
     name: str
     point: Array
     axis: Array
-    stiffness: Array
-    damping: Array
+    stiffness: Number
+    damping: Number
 
 
 def soft_hinges(bicycle: Bicycle) -> tuple[SoftHinge, ...]:

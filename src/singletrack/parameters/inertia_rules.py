@@ -16,7 +16,7 @@ from singletrack.parameters.values import real_numbers
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from singletrack.arrays import Array
+    from singletrack.arrays import Number
 
 __all__ = ["FLATNESS_TOLERANCE", "inertia_faults", "skate_faults", "tyre_faults"]
 
@@ -27,7 +27,7 @@ FLATNESS_TOLERANCE = 0.05
 _ROUNDING = 1e-12
 
 
-def inertia_faults(body: str, axes: tuple[str, ...], xx: Array, yy: Array, zz: Array, xz: Array) -> Iterator[Fault]:
+def inertia_faults(body: str, axes: tuple[str, ...], xx: Number, yy: Number, zz: Number, xz: Number) -> Iterator[Fault]:
     """Yield faults of an inertia tensor that is symmetric about the x-z plane: what no distribution of mass has.
 
     Parameters
@@ -66,7 +66,7 @@ def inertia_faults(body: str, axes: tuple[str, ...], xx: Array, yy: Array, zz: A
     yield Fault(excess, tensor + triangle, found, InputError, parameters, "the inertia of a body")
 
 
-def skate_faults(wheel: str, radius: Array, mass: Array, xx: Array, yy: Array) -> Iterator[Fault]:
+def skate_faults(wheel: str, radius: Number, mass: Number, xx: Number, yy: Number) -> Iterator[Fault]:
     """Yield faults of a wheel without radius or mass: a skate's, which has no inertia either.
 
     Parameters
@@ -105,7 +105,7 @@ def skate_faults(wheel: str, radius: Array, mass: Array, xx: Array, yy: Array) -
     )
 
 
-def tyre_faults(wheel: str, radius: Array, tyre: Array | None) -> Iterator[Fault]:
+def tyre_faults(wheel: str, radius: Number, tyre: Number | None) -> Iterator[Fault]:
     """Yield the fault of a tyre that is rounder than its wheel is large.
 
     Parameters

@@ -6,11 +6,11 @@ import dataclasses
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from math import inf
-from typing import TYPE_CHECKING, Any, ClassVar, Self
+from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple, Self
 
 import numpy as np
 
-from singletrack.arrays import Array, is_concrete
+from singletrack.arrays import Number, is_concrete
 from singletrack.arrays.faults import Fault, refuse_single
 from singletrack.errors import InputError, SingletrackError
 from singletrack.parameters.description import ALLOWED, Parameter, faults_of_value, parameter
@@ -53,7 +53,7 @@ class Record:
     name: str = ""
     description: str = ""
     source: str = ""
-    standard_deviations: Mapping[str, Array] = field(default_factory=dict)
+    standard_deviations: Mapping[str, Number] = field(default_factory=dict)
     extras: Mapping[str, float] = field(default_factory=dict)
     written: Mapping[str, str] = field(default_factory=dict)
 
@@ -88,7 +88,7 @@ class Record:
         """Return the description of every parameter by name, in the order of the record."""
         return dict(_descriptions(cls))
 
-    def values(self) -> dict[str, Array]:
+    def values(self) -> dict[str, Number]:
         """Return the parameters that are present, by name.
 
         Each of a shape (...) of its own that broadcasts with the others, SI.
@@ -98,7 +98,7 @@ class Record:
         found = {name: getattr(self, name) for name in _descriptions(type(self))}
         return {name: value for name, value in found.items() if value is not None}
 
-    def replace(self, **changes: Array) -> Self:
+    def replace(self, **changes: Any) -> Self:
         """Return a copy with parameters changed; values may be arrays, which broadcast as NumPy does.
 
         Raises
@@ -107,11 +107,14 @@ class Record:
             If a name is unknown or a value is not allowed.
         """
         self.require_known(changes)
-        return dataclasses.replace(self, **changes)
+        own = self.__dict__
+        return type(self)(**{name: own[name] for name in _layout(type(self)).names} | changes)
 
     @classmethod
     def require_known(cls, names: Mapping[str, Any], also: tuple[str, ...] = ()) -> None:
         """Raise InputError for the first name that is no field of this record (nor one of ``also``)."""
+        if names.keys() <= cls.__dataclass_fields__.keys():
+            return
         for name in names:
             if name not in cls.__dataclass_fields__ and name not in also:
                 raise unknown_parameter(cls.kind, name, cls.descriptions())
@@ -119,7 +122,7 @@ class Record:
     def faults(self) -> tuple[Fault, ...]:
         """Return what is wrong with the values, with a mask over the batch each; sound numbers have no faults."""
         if self.is_single:
-            return tuple(self._faults())
+            return tuple(self._physical_faults() if _is_plain(self) else self._faults())
         # Numbers near the largest double overflow on the way to being refused.
         with np.errstate(over="ignore", invalid="ignore"):
             return tuple(self._faults())
@@ -154,30 +157,65 @@ class Record:
         return shape
 
 
-#: The descriptions by class, as reading them off the fields takes longer than checking the values.
-_DESCRIPTIONS: dict[type[Record], dict[str, Parameter]] = {}
+class _Layout(NamedTuple):
+    """What reading off the fields of a class of records takes longer than checking the values."""
+
+    names: tuple[str, ...]
+    descriptions: dict[str, Parameter]
+    texts: tuple[str, ...]
+    mappings: tuple[str, ...]
+    #: Each parameter's name, plain range and whether it is optional.
+    ranges: tuple[tuple[str, float, float, bool], ...]
+
+
+_LAYOUTS: dict[type[Record], _Layout] = {}
+
+
+def _layout(cls: type[Record]) -> _Layout:
+    if cls not in _LAYOUTS:
+        fields = dataclasses.fields(cls)
+        descriptions = {f.name: f.metadata["parameter"] for f in fields if "parameter" in f.metadata}
+        _LAYOUTS[cls] = _Layout(
+            tuple(f.name for f in fields),
+            descriptions,
+            tuple(f.name for f in fields if f.default == ""),
+            tuple(f.name for f in fields if f.default_factory is not dataclasses.MISSING),
+            tuple((name, *each.plain, each.optional) for name, each in descriptions.items()),
+        )
+    return _LAYOUTS[cls]
 
 
 def _descriptions(cls: type[Record]) -> dict[str, Parameter]:
-    if cls not in _DESCRIPTIONS:
-        fields = (f for f in dataclasses.fields(cls) if "parameter" in f.metadata)
-        _DESCRIPTIONS[cls] = {f.name: f.metadata["parameter"] for f in fields}
-    return _DESCRIPTIONS[cls]
+    return _layout(cls).descriptions
+
+
+def _is_plain(record: Record) -> bool:
+    """Tell whether each number of a single design is sound by itself, and none is missing; False where in doubt."""
+    own = record.__dict__
+    for name, low, high, optional in _layout(type(record)).ranges:
+        value = own[name]
+        if value is None:
+            if not optional:
+                return False
+        elif not low <= value <= high:
+            return False
+    return True
 
 
 def _take_texts(record: Record) -> None:
     """Refuse names that are no text; take copies of the mappings, which cannot be changed."""
-    own = record.__dict__
-    for f in dataclasses.fields(record):
-        value = own[f.name]
-        if f.default == "" and not isinstance(value, str):
-            reason = f"{f.name} = {value!r:.80}, must be text"
-            raise InputError(reason, parameters=(f.name,), found=value, allowed="text")
-        if f.default_factory is not dataclasses.MISSING:
-            if not isinstance(value, Mapping):
-                reason = f"{f.name} = {value!r:.80}, must be a dictionary"
-                raise InputError(reason, parameters=(f.name,), found=value, allowed="a dictionary")
-            own[f.name] = FrozenDict(value)
+    own, layout = record.__dict__, _layout(type(record))
+    for name in layout.texts:
+        value = own[name]
+        if not isinstance(value, str):
+            reason = f"{name} = {value!r:.80}, must be text"
+            raise InputError(reason, parameters=(name,), found=value, allowed="text")
+    for name in layout.mappings:
+        value = own[name]
+        if not isinstance(value, Mapping):
+            reason = f"{name} = {value!r:.80}, must be a dictionary"
+            raise InputError(reason, parameters=(name,), found=value, allowed="a dictionary")
+        own[name] = FrozenDict(value)
 
 
 def _check_mappings(record: Record) -> None:
@@ -195,14 +233,14 @@ def _check_mappings(record: Record) -> None:
     own["extras"] = FrozenDict({name: _number_of(f"extras[{name!r}]", value) for name, value in record.extras.items()})
 
 
-def _number_of(name: str, value: Any) -> Array:
+def _number_of(name: str, value: Any) -> Number:
     try:
         return as_parameter(value)
     except InputError as error:
         raise error.of(name) from None
 
 
-def _is_spread(value: Array) -> bool:
+def _is_spread(value: Number) -> bool:
     """Tell whether a standard deviation is finite and not negative, as far as it can be looked at."""
     if isinstance(value, float):
         return 0 <= value < inf

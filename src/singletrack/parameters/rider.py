@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from math import inf, pi
 from typing import TYPE_CHECKING, ClassVar
 
-from singletrack.arrays import Array
+from singletrack.arrays import Number
 from singletrack.arrays.faults import Fault
 from singletrack.errors import InputError, unknown
 from singletrack.parameters.record import Record, parameter
@@ -50,41 +50,41 @@ class Rider(Record):
     kind: ClassVar[str] = "rider"
     in_short: ClassVar[tuple[str, ...]] = ("rider_mass", "torso_length", "forward_lean_angle")
 
-    chest_circumference: Array = parameter("m", "cch", "around the chest", group=_BODY)
-    forward_lean_angle: Array = parameter(
+    chest_circumference: Number = parameter("m", "cch", "around the chest", group=_BODY)
+    forward_lean_angle: Number = parameter(
         "rad", "λfl", "torso from the horizontal, on this bicycle", "angle", group=_BODY, optional=True
     )
-    elbow_drop_angle: Array = parameter(
+    elbow_drop_angle: Number = parameter(
         "rad", "λed", "elbows turned out less far than hanging down (90 deg)", "angle", group=_BODY, optional=True
     )
-    head_circumference: Array = parameter("m", "ch", "around the head", group=_BODY)
-    hip_joint_to_hip_joint: Array = parameter("m", "lhh", "between the hip joints", group=_BODY)
-    lower_arm_circumference: Array = parameter("m", "cla", "around the lower arm", group=_BODY)
-    lower_arm_length: Array = parameter("m", "lla", "elbow to grip", group=_BODY)
-    lower_leg_circumference: Array = parameter("m", "cll", "around the lower leg", group=_BODY)
-    lower_leg_length: Array = parameter("m", "lll", "knee to pedal", group=_BODY)
-    shoulder_to_shoulder: Array = parameter("m", "lss", "between the shoulder joints", group=_BODY)
-    torso_length: Array = parameter("m", "lto", "hip joints to shoulder joints", group=_BODY)
-    torso_thickness: Array = parameter(
+    head_circumference: Number = parameter("m", "ch", "around the head", group=_BODY)
+    hip_joint_to_hip_joint: Number = parameter("m", "lhh", "between the hip joints", group=_BODY)
+    lower_arm_circumference: Number = parameter("m", "cla", "around the lower arm", group=_BODY)
+    lower_arm_length: Number = parameter("m", "lla", "elbow to grip", group=_BODY)
+    lower_leg_circumference: Number = parameter("m", "cll", "around the lower leg", group=_BODY)
+    lower_leg_length: Number = parameter("m", "lll", "knee to pedal", group=_BODY)
+    shoulder_to_shoulder: Number = parameter("m", "lss", "between the shoulder joints", group=_BODY)
+    torso_length: Number = parameter("m", "lto", "hip joints to shoulder joints", group=_BODY)
+    torso_thickness: Number = parameter(
         "m", "tto", "front to back; else from the chest's circumference", group=_BODY, optional=True
     )
-    torso_width: Array = parameter(
+    torso_width: Number = parameter(
         "m", "wto", "side to side; else between the insides of the upper arms", group=_BODY, optional=True
     )
-    upper_arm_circumference: Array = parameter("m", "cua", "around the upper arm", group=_BODY)
-    upper_arm_length: Array = parameter("m", "lua", "shoulder to elbow", group=_BODY)
-    upper_leg_circumference: Array = parameter("m", "cul", "around the upper leg", group=_BODY)
-    upper_leg_length: Array = parameter("m", "lul", "hip to knee", group=_BODY)
+    upper_arm_circumference: Number = parameter("m", "cua", "around the upper arm", group=_BODY)
+    upper_arm_length: Number = parameter("m", "lua", "shoulder to elbow", group=_BODY)
+    upper_leg_circumference: Number = parameter("m", "cul", "around the upper leg", group=_BODY)
+    upper_leg_length: Number = parameter("m", "lul", "hip to knee", group=_BODY)
 
-    rider_mass: Array = parameter("kg", "mBr", "whole rider", group=_MASS)
-    head_mass_fraction: Array = parameter("", "mh/mBr", "head", "fraction", group=_MASS, most=0.5)
-    lower_arm_mass_fraction: Array = parameter("", "mla/mBr", "one lower arm", "fraction", group=_MASS)
-    lower_leg_mass_fraction: Array = parameter("", "mll/mBr", "one lower leg", "fraction", group=_MASS)
-    torso_mass_fraction: Array = parameter("", "mto/mBr", "torso", "fraction", group=_MASS)
-    upper_arm_mass_fraction: Array = parameter("", "mua/mBr", "one upper arm", "fraction", group=_MASS)
-    upper_leg_mass_fraction: Array = parameter("", "mul/mBr", "one upper leg", "fraction", group=_MASS)
+    rider_mass: Number = parameter("kg", "mBr", "whole rider", group=_MASS)
+    head_mass_fraction: Number = parameter("", "mh/mBr", "head", "fraction", group=_MASS, most=0.5)
+    lower_arm_mass_fraction: Number = parameter("", "mla/mBr", "one lower arm", "fraction", group=_MASS)
+    lower_leg_mass_fraction: Number = parameter("", "mll/mBr", "one lower leg", "fraction", group=_MASS)
+    torso_mass_fraction: Number = parameter("", "mto/mBr", "torso", "fraction", group=_MASS)
+    upper_arm_mass_fraction: Number = parameter("", "mua/mBr", "one upper arm", "fraction", group=_MASS)
+    upper_leg_mass_fraction: Number = parameter("", "mul/mBr", "one upper leg", "fraction", group=_MASS)
 
-    forward_lean_angles: Mapping[str, Array] = field(default_factory=dict)
+    forward_lean_angles: Mapping[str, Number] = field(default_factory=dict)
     shapes: Mapping[str, SegmentShape] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
@@ -127,7 +127,7 @@ class Rider(Record):
         return self.replace(forward_lean_angle=angle, standard_deviations=deviations)
 
     @property
-    def torso_section(self) -> tuple[Array, Array]:
+    def torso_section(self) -> tuple[Number, Number]:
         """Width (along y) and thickness of the torso in m, shape (...) each.
 
         As given; else the width is that between the insides of the upper arms, and a stadium of that width and the

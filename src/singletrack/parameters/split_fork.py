@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -44,7 +44,7 @@ def combined(values: Mapping[str, float]) -> dict[str, float]:
     return {symbol: float(value) for symbol, value in zip(WHOLE_SYMBOLS, _whole(values), strict=True)}
 
 
-def _whole(values: Mapping[str, float | complex]) -> PlanarBody:
+def _whole(values: Mapping[str, Any]) -> PlanarBody:
     handlebar, fork = (PlanarBody(*(values[symbol] for symbol in _symbols(letter))) for letter in "GS")
     # Numbers near the largest double overflow; the record then refuses what is not finite.
     with np.errstate(all="ignore"):
@@ -66,7 +66,7 @@ def combined_deviations(quantities: Mapping[str, Quantity]) -> dict[str, float]:
         if deviation:
             stepped = _whole({**values, symbol: values[symbol] + 1j * _STEP})
             for whole, value in zip(WHOLE_SYMBOLS, stepped, strict=True):
-                variances[whole] += (float(np.imag(value)) / _STEP * deviation) ** 2
+                variances[whole] += (float(np.asarray(value).imag) / _STEP * deviation) ** 2
     return {symbol: variance**0.5 for symbol, variance in variances.items() if variance > 0}
 
 

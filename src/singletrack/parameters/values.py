@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from singletrack.arrays import Array, complex_allowed, is_concrete, is_jax
+from singletrack.arrays import Number, complex_allowed, is_concrete, is_jax
 from singletrack.errors import InputError
 
 __all__ = ["FrozenDict", "as_parameter", "real_numbers"]
@@ -26,7 +26,7 @@ class FrozenDict(dict[str, Any]):
         return FrozenDict, (dict(self),)
 
 
-def as_parameter(value: Any) -> Array:
+def as_parameter(value: Any) -> Number:
     """Return a value as a float, as a read-only array of doubles of its own, or as the JAX array that it is.
 
     Parameters
@@ -67,7 +67,7 @@ def as_parameter(value: Any) -> Array:
     return _as_array(value)
 
 
-def real_numbers(*values: Array) -> tuple[Array, ...] | None:
+def real_numbers(*values: Number) -> tuple[Any, ...] | None:
     """Return the real parts of parameters: floats as they are, else NumPy arrays.
 
     None if one of them is missing, or hidden by JAX.
@@ -81,7 +81,10 @@ def real_numbers(*values: Array) -> tuple[Array, ...] | None:
     >>> real_numbers(1.0, 2.0)
     (1.0, 2.0)
     """
-    if all(type(value) is float for value in values):
+    for value in values:
+        if type(value) is not float:
+            break
+    else:
         return values
     if not all(value is not None and is_concrete(value) for value in values):
         return None

@@ -2,7 +2,7 @@
 
 A joint's momentum (p, h) is that of all it carries for its unit rate, about the rear contact: p = M v + w x S and
 h = I w + S x v, with the mass M, first moment S and inertia I of the segments beyond it. Everything the equations need
-follows from it (docs/theory.md, with X as in :mod:`singletrack.posture.twists` and Y the same sum of v):
+follows from it (docs/theory/closed-form.md, with X as in :mod:`singletrack.posture.twists` and Y the same sum of v):
 
     momenta along a freedom      sum of  p U_i,  h U_i
     inertia of two freedoms      sum of  (X_i . h + Y_i . p) U_j + (X_j . h + Y_j . p) U_i
@@ -12,12 +12,12 @@ follows from it (docs/theory.md, with X as in :mod:`singletrack.posture.twists` 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from singletrack.arrays import Array, as_arrays, is_concrete, stack
+from singletrack.arrays import Array, Number, as_arrays, is_concrete, stack
 from singletrack.arrays.faults import Fault, refuse_single
 from singletrack.errors import PostureError
 from singletrack.posture.laws import laws_of
@@ -63,29 +63,31 @@ class SlavedMass:
         Designs of a batch that cannot sit or steer.
     """
 
-    moment_x: Array
-    moment_z: Array
-    inertia_xx: Array
-    inertia_xz: Array
-    inertia_zz: Array
-    spin_x: Sequence[Array] = (0.0,)
-    spin_z: Sequence[Array] = (0.0,)
-    lateral: Sequence[Array] = (0.0,)
-    inner: Sequence[Array] = (0.0,)
-    sinking: Sequence[Array] = (0.0,)
+    moment_x: Number
+    moment_z: Number
+    inertia_xx: Number
+    inertia_xz: Number
+    inertia_zz: Number
+    spin_x: Sequence[Number] = (0.0,)
+    spin_z: Sequence[Number] = (0.0,)
+    lateral: Sequence[Number] = (0.0,)
+    inner: Sequence[Number] = (0.0,)
+    sinking: Sequence[Number] = (0.0,)
     freedoms: tuple[str, ...] = ()
     damping: Array | None = None
     stiffness: Array | None = None
     faults: tuple[Fault, ...] = ()
 
 
-def slaved_mass(posture: Posture, bicycle: Bicycle) -> SlavedMass:
+def slaved_mass(posture: Posture, bicycle: Bicycle, *, massless: bool = False) -> SlavedMass:
     """Return how the mass of a seated rider moves with the steer and the free joints.
 
     Parameters
     ----------
     posture : Posture
     bicycle : Bicycle
+    massless : bool
+        Let free joints move no mass.
 
     Raises
     ------
@@ -125,7 +127,7 @@ def slaved_mass(posture: Posture, bicycle: Bicycle) -> SlavedMass:
     lifted = turning[0] * momentum[1][:, None] - turning[1] * momentum[0][:, None] + momentum[2][:, None] * motion.bends
     inner = [value.reshape(shape) for value in inner]
     damping, stiffness = laws_of(posture, motion)
-    return SlavedMass(
+    mass = SlavedMass(
         **whole,
         spin_x=along(spin[0], rates),
         spin_z=along(spin[2], rates),
@@ -135,8 +137,12 @@ def slaved_mass(posture: Posture, bicycle: Bicycle) -> SlavedMass:
         freedoms=posture.freedoms,
         damping=damping,
         stiffness=stiffness,
-        faults=faults + motion.faults + _massless(posture, inner, whole["inertia_xx"] + whole["inertia_zz"]),
+        faults=faults + motion.faults,
     )
+    if massless:
+        return mass
+    light = _massless(posture, inner, whole["inertia_xx"] + whole["inertia_zz"])
+    return replace(mass, faults=mass.faults + light)
 
 
 def _batch(posture: Posture) -> tuple[int, ...]:

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from singletrack.posture.loops import Loops
     from singletrack.posture.seated import Posture
 
-__all__ = ["solver_of"]
+__all__ = ["solver_of", "squared_condition"]
 
 #: Loops whose matrix (of sines of angles, arms scaled to their mean) is closer to singular than this cannot move.
 _SINGULAR = 1e-6
@@ -57,16 +57,11 @@ def solver_of(
 def _blocks(loops: Loops, own: np.ndarray) -> Callable[[Array], Array] | None:
     """Return the solver of loops with three joints each of their own, or None if one is nearly singular."""
     count = len(own)
-    mine = loops.columns[:, np.arange(count)[:, None], own]  # type: ignore[index]
-    one, two, three = (mine[:, :, k] for k in range(3))
-    rows = [cross3(two, three), cross3(three, one), cross3(one, two)]
-    volume = dot3(one, rows[0])
+    columns, rows, volume = _adjugates(loops, own)
     if is_concrete(volume):
-        size = sum(dot3(column, column) for column in (one, two, three))
-        of_rows = sum(dot3(row, row) for row in rows)
         with np.errstate(invalid="ignore"):
             # |A| |A⁻¹| (Frobenius) is at least σmax / σmin.
-            if not np.all(abs(np.asarray(size * of_rows)) * _SINGULAR**2 < abs(np.asarray(volume)) ** 2):
+            if not np.all(abs(np.asarray(_sizes(columns, rows))) * _SINGULAR**2 < abs(np.asarray(volume)) ** 2):
                 return None
 
     def by_blocks(right: Array) -> Array:
@@ -75,6 +70,39 @@ def _blocks(loops: Loops, own: np.ndarray) -> Callable[[Array], Array] | None:
         return rates.reshape(3 * count, *right.shape[1:])
 
     return by_blocks
+
+
+def _adjugates(loops: Loops, own: np.ndarray) -> tuple[list[Array], list[Array], Array]:
+    """Return columns, adjugates' rows (3, L, N) and determinants (L, N) of loops with three joints of their own."""
+    mine = loops.columns[:, np.arange(len(own))[:, None], own]
+    one, two, three = (mine[:, :, k] for k in range(3))
+    rows = [cross3(two, three), cross3(three, one), cross3(one, two)]
+    return [one, two, three], rows, dot3(one, rows[0])
+
+
+def _sizes(columns: list[Array], rows: list[Array]) -> Array:
+    """Return |A|² |adj A|² (L, N), Frobenius."""
+    one, two, three = (dot3(column, column) for column in columns)
+    first, second, third = (dot3(row, row) for row in rows)
+    return (one + two + three) * (first + second + third)
+
+
+def squared_condition(xp: Any, posture: Posture, loops: Loops, spin: Array) -> Array:
+    """Return |A|² |A⁻¹|² (N,), Frobenius, of the loops' matrices, summed over loops that are solved one by one.
+
+    Parameters
+    ----------
+    xp : namespace
+    posture : Posture
+    loops : Loops
+    spin : array, shape (3, n, N)
+    """
+    own = posture.tree.points.own
+    if own is not None and not posture.tree.angles.index:
+        columns, rows, volume = _adjugates(loops, own)
+        return xp.sum(_sizes(columns, rows) / (volume * volume), axis=0)
+    matrix = xp.moveaxis(loops.matrix(xp, spin, posture.tree.dependent), -1, 0)
+    return xp.sum(matrix**2, axis=(-2, -1)) * xp.sum(xp.linalg.inv(matrix) ** 2, axis=(-2, -1))
 
 
 def _inverse(matrix: Array, posture: Posture, shape: tuple[int, ...]) -> tuple[Array, tuple[Fault, ...]]:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from singletrack.arrays import Array, as_arrays, is_concrete
+from singletrack.arrays import Array, Number, as_arrays, is_concrete
 
 if TYPE_CHECKING:
     from singletrack.posture.seated import Posture
@@ -50,7 +50,7 @@ def laws_of(posture: Posture, motion: Motion) -> tuple[Array | None, Array | Non
     return found[0], found[1]
 
 
-def _is_nothing(value: Array) -> bool:
+def _is_nothing(value: Number) -> bool:
     return type(value) is float and value == 0.0
 
 

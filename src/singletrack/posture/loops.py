@@ -37,10 +37,11 @@ class Loops:
     tree: Tree
     foot: Array
     axis: Array
-    points: Array | None
-    columns: Array | None
-    near: Array | None
-    far: Array | None
+    # Arrays; the first two are None without points, the others without directions.
+    points: Any
+    columns: Any
+    near: Any
+    far: Any
 
     def matrix(self, xp: Any, spin: Array, joints: np.ndarray) -> Array:
         """Return the rates (rows, k, N) of all conditions for unit rates of some joints.
@@ -126,8 +127,8 @@ class Loops:
         ends, tree = self.tree.angles, self.tree
         firsts, seconds = [], []
         for which, direction in ((ends.near, self.near), (ends.far, self.far)):
-            columns = cross3(motion.spin[:, None], direction[:, :, None]) * which[:, :, None]  # type: ignore[index]
-            first = cross3(motion.spins(which), direction[:, :, None])  # type: ignore[index]
+            columns = cross3(motion.spin[:, None], direction[:, :, None]) * which[:, :, None]
+            first = cross3(motion.spins(which), direction[:, :, None])
             second = turned(motion.turning[:, None], columns)
             if which is ends.far:  # the handlebar turns with the steer alone
                 bar = cross3(self.axis[:, None], direction) * ends.bar[:, None]
@@ -139,4 +140,4 @@ class Loops:
             seconds.append(second)
         i, j = tree.first, tree.second
         mixed = dot3(firsts[0][:, :, i], firsts[1][:, :, j]) + dot3(firsts[0][:, :, j], firsts[1][:, :, i])
-        return dot3(seconds[0], self.far[:, :, None]) + mixed + dot3(seconds[1], self.near[:, :, None])  # type: ignore[index]
+        return dot3(seconds[0], self.far[:, :, None]) + mixed + dot3(seconds[1], self.near[:, :, None])

@@ -9,11 +9,13 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from singletrack.arrays import Array
+from singletrack.arrays import Number
 from singletrack.errors import InputError, unknown_name
 
 __all__ = ["FRAME", "HANDLEBAR", "SEGMENTS", "Direction", "JointPlan", "LoopPlan", "Mechanism", "Place"]
 
+#: N m/rad, N m s/rad, N/m, N s/m: nothing that is ridden is stiffer by far; beyond, numbers overflow within.
+STIFFEST = 1e12
 #: What a joint or a loop may be fixed to beside other joints.
 FRAME, HANDLEBAR = "frame", "handlebar"
 _RESERVED = (FRAME, HANDLEBAR, "lean", "steer")
@@ -97,9 +99,9 @@ class JointPlan:
     axis: Direction
     slides: bool = False
     free: bool = False
-    stiffness: Array = 0.0
-    damping: Array = 0.0
-    preload: Array = 0.0
+    stiffness: Number = 0.0
+    damping: Number = 0.0
+    preload: Number = 0.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -126,8 +128,8 @@ class LoopPlan:
     to: str = HANDLEBAR
     point: Place | None = None
     perpendicular: tuple[Direction, Direction] | None = None
-    stiffness: Array | None = None
-    damping: Array = 0.0
+    stiffness: Number | None = None
+    damping: Number = 0.0
     at: Place | None = None
 
 

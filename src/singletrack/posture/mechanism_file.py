@@ -12,7 +12,7 @@ from singletrack.errors import InputError, unknown_name
 from singletrack.files.toml_keys import place_of
 from singletrack.files.toml_text import parse_toml
 from singletrack.parameters.units import parse_quantity
-from singletrack.posture.mechanism import FRAME, HANDLEBAR, Direction, JointPlan, LoopPlan, Mechanism, Place
+from singletrack.posture.mechanism import FRAME, HANDLEBAR, STIFFEST, Direction, JointPlan, LoopPlan, Mechanism, Place
 
 __all__ = ["parse_mechanism"]
 
@@ -29,6 +29,8 @@ _UNITS = {
     "hinge": {"stiffness": "N*m/rad", "damping": "N*m*s/rad", "preload": "N*m"},
     "slider": {"stiffness": "N/m", "damping": "N*s/m", "preload": "N"},
 }
+#: Of points in m, of axes, of shares of a line: what is beyond is a mistake.
+_NEAREST, _FARTHEST = 1e-9, 100.0
 _JOINT = ("name", "parent", "kind", "point", "axis", "free", "stiffness", "damping", "preload")
 _LOOP = ("name", "joint", "to", "point", "at", "perpendicular", "stiffness", "damping")
 _TOP = ("kind", "name", "description", "source", "arms", "joints", "loops", "segments")
@@ -116,6 +118,8 @@ class _Reader:
             raise InputError(f"{self.where}: {of}{name}: {error}") from None
         if not math.isfinite(value) or (least is not None and value < least):
             raise InputError(f"{self.where}: {of}{name} = {value:g} {unit}, must be a finite number of zero or more")
+        if abs(value) > STIFFEST:
+            raise InputError(f"{self.where}: {of}{name} = {value:g} {unit}, must be at most {STIFFEST:g} {unit}")
         return value
 
     def joint(self, entry: dict[str, Any]) -> JointPlan:
@@ -182,10 +186,9 @@ class _Reader:
             self.refuse_unknown("entry", found, ("from", "to", "share"), f"{what}: ")
             start, end = (self.number_of_point(found.get(key), f"{what}: {key}") for key in ("from", "to"))
             share = found.get("share", 0.5)
-            if isinstance(share, bool) or not isinstance(share, int | float) or not math.isfinite(share):
-                raise InputError(
-                    f"{self.where}: {what}: share = {share!r}, must be a number, such as 0.5 for the middle"
-                )
+            if isinstance(share, bool) or not isinstance(share, int | float) or not abs(share) <= _FARTHEST:
+                wanted = f"a number of at most {_FARTHEST:g}, such as 0.5 for the middle"
+                raise InputError(f"{self.where}: {what}: share = {share!r}, must be {wanted}")
             return Place(start, end, float(share))
         if found is None:
             raise InputError(
@@ -201,6 +204,10 @@ class _Reader:
             x, y, z = (parse_quantity(value, unit).value for value in found)
         except InputError as error:
             raise InputError(f"{self.where}: {what}: {error}") from None
+        size = max(abs(x), abs(y), abs(z))
+        if size > _FARTHEST or 0 < size < _NEAREST:
+            wanted = f"0 or of a size from {_NEAREST:g} to {_FARTHEST:g} {unit}".rstrip()
+            raise InputError(f"{self.where}: {what} = {found!r}, its largest component must be {wanted}")
         return x, y, z
 
     def direction(self, found: object, what: str) -> Direction:

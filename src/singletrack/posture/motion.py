@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
-from singletrack.arrays import Array, is_jax, stack
+from singletrack.arrays import Array, Number, is_jax, stack
 from singletrack.posture.inverses import solver_of
 from singletrack.posture.loops import Loops
 from singletrack.posture.seated import steer_axis
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from singletrack.parameters import Bicycle
     from singletrack.posture.seated import Posture
 
-__all__ = ["joint_motion", "rider_motion"]
+__all__ = ["joint_motion", "loops_of", "rider_motion"]
 
 
 def rider_motion(posture: Posture, bicycle: Bicycle, shape: tuple[int, ...] | None = None) -> Motion:
@@ -53,6 +53,20 @@ def rider_motion(posture: Posture, bicycle: Bicycle, shape: tuple[int, ...] | No
     >>> abs(motion.rates[:2, 0, 0]).round(3).tolist(), bool(abs(motion.bends[0, 0, 0]) > 0.01)
     ([0.0, 0.482], True)
     """
+    xp, shape, loops, joints = loops_of(posture, bicycle, shape)
+    return _solve(xp, posture, loops, joints, shape)
+
+
+def loops_of(
+    posture: Posture, bicycle: Bicycle, shape: tuple[int, ...] | None = None
+) -> tuple[Any, tuple[int, ...], Loops, tuple[Array, Array]]:
+    """Return the namespace, the batch's shape, the loops, and the joints' twists w and v (3, n, N).
+
+    Parameters
+    ----------
+    posture, bicycle, shape
+        As for :func:`rider_motion`.
+    """
     tree = posture.tree
     shape = posture.skeleton.points.shape[:-2] if shape is None else shape
     foot, axis = steer_axis(bicycle)
@@ -80,7 +94,7 @@ def rider_motion(posture: Posture, bicycle: Bicycle, shape: tuple[int, ...] | No
         parting = cross3(spin[:, ends.chain], held[:, :, None]) + twist[:, ends.chain]
         columns = parting if ends.signs.all() and (ends.signs > 0).all() else parting * ends.signs[:, :, None]
     near, far = arrays[-2:] if pairs else (None, None)
-    return _solve(xp, posture, Loops(tree, bar[:, 0], bar[:, 1], held, columns, near, far), (spin, twist), shape)
+    return xp, shape, Loops(tree, bar[:, 0], bar[:, 1], held, columns, near, far), (spin, twist)
 
 
 def joint_motion(posture: Posture, bicycle: Bicycle) -> tuple[dict[str, Array], dict[str, Array], tuple[Fault, ...]]:
@@ -115,7 +129,7 @@ def _solve(xp: Any, posture: Posture, loops: Loops, joints: tuple[Array, Array],
     return replace(motion, bends=_fill(motion.bends, dependent, -solve(loops.bending(xp, motion))))
 
 
-def _fill(whole: Array, index: Any, values: Array) -> Array:
+def _fill(whole: Array, index: Any, values: Number) -> Any:
     """Return an array with some of its entries replaced."""
     if is_jax(whole, values):
         from jax import numpy as jnp

@@ -8,10 +8,10 @@ from typing import Self
 
 import numpy as np
 
-from singletrack.arrays import Array, is_concrete
+from singletrack.arrays import Number, is_concrete
 from singletrack.errors import InputError, unknown_name
 from singletrack.library import shipped
-from singletrack.posture.mechanism import Mechanism
+from singletrack.posture.mechanism import STIFFEST, Mechanism
 
 __all__ = ["ARMS", "POSTURES", "SHOULDERS", "STEER", "Options", "input_name"]
 
@@ -53,7 +53,8 @@ class Options:
     Raises
     ------
     InputError
-        For a name that is not known, an option that the posture does not have, a number that is negative or not finite.
+        For a name that is not known, an option that the posture does not have, a number that is negative, not finite or
+        beyond all that is ridden.
 
     Examples
     --------
@@ -65,9 +66,9 @@ class Options:
     shoulder: str | None = None
     arms: str | None = None
     torso_lean: bool = False
-    springs: Mapping[str, Array] = field(default_factory=dict)
-    dampers: Mapping[str, Array] = field(default_factory=dict)
-    fit: Array | None = None
+    springs: Mapping[str, Number] = field(default_factory=dict)
+    dampers: Mapping[str, Number] = field(default_factory=dict)
+    fit: Number | None = None
 
     def __post_init__(self) -> None:
         if isinstance(self.posture, str) and self.posture not in POSTURES and self.posture not in shipped("posture"):
@@ -130,7 +131,7 @@ class Options:
                 raise InputError(f"{what} needs a rider; allowed without one: {allowed}")
 
 
-def _refuse_negative(what: str, value: Array, unit: str) -> None:
+def _refuse_negative(what: str, value: Number, unit: str) -> None:
     if not is_concrete(value):
         return
     numbers = np.asarray(value)
@@ -138,3 +139,6 @@ def _refuse_negative(what: str, value: Array, unit: str) -> None:
         raise InputError(f"{what}: found {value!r}, must be a number in {unit}")
     if not np.isfinite(numbers).all() or (numbers.real < 0).any():
         raise InputError(f"{what}: found {value} {unit}, must be a finite number of zero or more")
+    if (np.abs(numbers) > STIFFEST).any():
+        most = f"at most {STIFFEST:g} {unit}"
+        raise InputError(f"{what}: found {np.abs(numbers).max():g} {unit}, must be {most}", found=value, allowed=most)

@@ -8,9 +8,20 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property
 from math import pi
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
-from singletrack.arrays import Array, Fault, as_arrays, cross, dot, is_concrete, refuse_single, unit_vector, vector
+from singletrack.arrays import (
+    Array,
+    Fault,
+    Number,
+    as_arrays,
+    cross,
+    dot,
+    is_concrete,
+    refuse_single,
+    unit_vector,
+    vector,
+)
 from singletrack.body import Segment, Skeleton, rider_segments, skeleton
 from singletrack.body.fit import fitted
 from singletrack.errors import PostureError
@@ -25,14 +36,14 @@ if TYPE_CHECKING:
 
     from singletrack.parameters import Rider
 
-__all__ = ["Joint", "Loop", "Posture", "seat", "steer_axis"]
+__all__ = ["Loop", "Posture", "SeatedJoint", "seat", "steer_axis"]
 
 #: Points further apart (m) and cosines larger than this are not closed.
 _CLOSED = 1e-9
 
 
 @dataclass(frozen=True, eq=False)
-class Joint:
+class SeatedJoint:
     """A hinge of the rider, or a slider.
 
     Attributes
@@ -54,9 +65,9 @@ class Joint:
     axis: Array
     slides: bool = False
     free: bool = False
-    stiffness: Array = 0.0
-    damping: Array = 0.0
-    preload: Array = 0.0
+    stiffness: Number = 0.0
+    damping: Number = 0.0
+    preload: Number = 0.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -78,7 +89,7 @@ class Loop:
 
     name: str
     joint: str
-    point: Array
+    point: Any  # an array, or None
     to: str = HANDLEBAR
     directions: tuple[Array, Array] | None = None
 
@@ -94,7 +105,7 @@ class Posture:
     skeleton : Skeleton
     segments : dict of str to Segment
         The rider's bodies by name.
-    joints : tuple of Joint
+    joints : tuple of SeatedJoint
         Each after its parent.
     loops : tuple of Loop
     carried_by : dict of str to str
@@ -107,15 +118,15 @@ class Posture:
     shoulder: str
     skeleton: Skeleton
     segments: dict[str, Segment]
-    joints: tuple[Joint, ...] = ()
+    joints: tuple[SeatedJoint, ...] = ()
     loops: tuple[Loop, ...] = ()
     carried_by: dict[str, str] | None = None
     faults: tuple[Fault, ...] = ()
 
-    def chain(self, joint: str) -> tuple[Joint, ...]:
+    def chain(self, joint: str) -> tuple[SeatedJoint, ...]:
         """Return the joints from the rear frame out to ``joint``, in order ("" gives none)."""
         by_name = {j.name: j for j in self.joints}
-        chain: list[Joint] = []
+        chain: list[SeatedJoint] = []
         while joint:
             chain.insert(0, by_name[joint])
             joint = by_name[joint].parent
@@ -169,7 +180,7 @@ def seat(bicycle: Bicycle, rider: Rider, options: Options | str = "rigid") -> Po
     points = skeleton(bicycle, rider)
     resolve = _Resolver(points, bicycle)
     joints = tuple(
-        Joint(
+        SeatedJoint(
             plan.name,
             _link(plan.parent),
             resolve.place(plan.point),

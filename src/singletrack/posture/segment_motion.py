@@ -11,7 +11,7 @@ from singletrack.arrays import Array, stack
 from singletrack.parameters.flexible import FRAME_TORSION, soft_hinges
 from singletrack.posture.mechanism import HANDLEBAR
 from singletrack.posture.motion import rider_motion
-from singletrack.posture.seated import Joint
+from singletrack.posture.seated import SeatedJoint
 from singletrack.posture.twists import designs_last
 
 if TYPE_CHECKING:
@@ -97,4 +97,4 @@ def carried_by_soft_frame(posture: Posture, bicycle: Bicycle) -> Posture:
     hinge = next((hinge for hinge in soft_hinges(bicycle) if hinge.name == FRAME_TORSION), None)
     if hinge is None or all(loop.to != HANDLEBAR for loop in posture.loops):
         return posture
-    return replace(posture, joints=(*posture.joints, Joint(hinge.name, "", hinge.point, hinge.axis, free=True)))
+    return replace(posture, joints=(*posture.joints, SeatedJoint(hinge.name, "", hinge.point, hinge.axis, free=True)))

@@ -18,9 +18,9 @@ from singletrack.posture.options import POSTURES, STEER, Options
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from singletrack.arrays import Array
+    from singletrack.arrays import Number
 
-__all__ = ["TORSO_LEAN", "is_posture", "load_posture", "mechanism_of", "named_posture"]
+__all__ = ["TORSO_LEAN", "file_of_posture", "is_posture", "load_posture", "mechanism_of", "named_posture"]
 
 #: The hinge along x at the hips of the journal version (2012), under all of the upper body.
 TORSO_LEAN = "torso lean"
@@ -155,17 +155,39 @@ def _read(name: str) -> Mechanism:
 
 
 @functools.cache
-def _base(posture: str, shoulder: str | None, arms: str | None) -> Mechanism:
+def file_of_posture(posture: str, shoulder: str | None, arms: str | None) -> str:
+    """Return the name of the file in which a shipped posture with these shoulders and arms is described.
+
+    Parameters
+    ----------
+    posture : str
+    shoulder, arms : str, optional
+        As in :class:`~singletrack.posture.Options`.
+
+    Raises
+    ------
+    InputError
+        If arms with such shoulders could not follow the handlebar.
+
+    Examples
+    --------
+    >>> file_of_posture("leaned", None, "bent"), file_of_posture("one-hand", None, None)
+    ('leaned-bent-abduction', 'one-hand')
+    """
     variants = _VARIANTS.get(posture)
     if variants is None:
-        return _read(posture)
+        return posture
     for (own_shoulder, own_arms), name in variants.items():
         if shoulder in {None, own_shoulder} and arms in {None, own_arms}:
-            return _read(name)
+            return name
     raise InputError(
         f"posture {posture} with shoulder = {shoulder} and arms = {arms}: straight arms that only flex and turn about "
         "themselves cannot follow the handlebar; allowed: arms = bent, or shoulder = abduction"
     )
+
+
+def _base(posture: str, shoulder: str | None, arms: str | None) -> Mechanism:
+    return _read(file_of_posture(posture, shoulder, arms))
 
 
 @functools.cache
@@ -209,7 +231,7 @@ def _carries_legs_only(mechanism: Mechanism, root: JointPlan) -> bool:
     return bool(carried) and all("leg" in segment for segment in carried)
 
 
-def _sprung(mechanism: Mechanism, springs: Mapping[str, Array], dampers: Mapping[str, Array]) -> Mechanism:
+def _sprung(mechanism: Mechanism, springs: Mapping[str, Number], dampers: Mapping[str, Number]) -> Mechanism:
     """Return a mechanism with springs and dampers at joints and hands by name, in place of its own."""
     joints = {joint.name: joint for joint in mechanism.joints}
     loops = {loop.name: loop for loop in mechanism.loops if loop.point is not None}

@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from singletrack.arrays import Array, as_arrays, cross, stack
+from singletrack.body.skeleton import POINT_NAMES
+from singletrack.errors import InputError, unknown_name
 from singletrack.posture.motion import rider_motion
 from singletrack.posture.seated import steer_axis
 from singletrack.posture.twists import designs_last
@@ -15,7 +17,7 @@ if TYPE_CHECKING:
     from singletrack.parameters import Bicycle
     from singletrack.posture.seated import Posture
 
-__all__ = ["steered_skeleton"]
+__all__ = ["lateral_work", "moved_skeleton", "steered_skeleton"]
 
 #: Points of the front frame, and the segments on which each of the rider's points may lie.
 _FRONT_POINTS = (6, 7, 8, 9, 11, 12, 16, 17, 18, 19, 20)
@@ -89,6 +91,36 @@ def moved_skeleton(posture: Posture, bicycle: Bicycle, freedoms: Array) -> Array
             shift = steer[..., None] * velocity + steer[..., None] ** 2 / 2 * cross(axis, velocity)
         moved.append(point + shift)
     return stack(moved, -2)
+
+
+def lateral_work(posture: Posture, bicycle: Bicycle, point: str) -> Array:
+    """Return the work (..., 1 + f), m, of a unit force to the right at a point, on lean, steer and the free joints.
+
+    Parameters
+    ----------
+    posture : Posture
+        With f freedoms, the steer first.
+    bicycle : Bicycle
+    point : str
+        A point of the skeleton by its name, which moves with its segment.
+
+    Raises
+    ------
+    InputError
+        For an unknown point.
+    """
+    if point not in POINT_NAMES:
+        raise InputError(unknown_name("point", point, POINT_NAMES))
+    place, count = POINT_NAMES.index(point), 1 + len(posture.freedoms)
+    trail, tilt, base = bicycle.trail, bicycle.steer_axis_tilt, bicycle.wheel_base
+    _xp, (mu,) = as_arrays(trail * as_arrays(tilt)[0].cos(tilt) / base)
+    at = posture.skeleton.points[..., place, :]
+    # The moved skeleton is exact to second order: half the difference of both ways is the first order to rounding.
+    own = [
+        (moved_skeleton(posture, bicycle, sign) - moved_skeleton(posture, bicycle, -sign))[..., place, 1] / 2
+        for sign in np.eye(count)
+    ]
+    return stack([-at[..., 2], mu * at[..., 0] + own[0], *own[1:]], -1)
 
 
 def _shifts(posture: Posture, bicycle: Bicycle, links: list[str], angles: Array) -> Array:

@@ -8,7 +8,7 @@ U_b,ij its second derivative. A joint is carried by the joints below it, so that
     second derivatives   r_ij = sum of  X_b,i x c_b U_b,j + X_b,j x c_b U_b,i + c_b U_b,ij
                          X_b,i = (sum over the joints a below b of  w_a U_a,i) + w_b U_b,i / 2
 
-and likewise for directions, with c_b = w_b x direction (docs/theory.md).
+and likewise for directions, with c_b = w_b x direction (docs/theory/closed-form.md).
 
 Arrays run along (x y z, joint or body, freedom or pair of freedoms, designs): designs last, side by side in memory.
 """

@@ -84,7 +84,7 @@ def _side_view(axes: Axes, bicycle: Bicycle, posture: Posture, points: np.ndarra
     axes.set_aspect("equal")
     axes.axhline(0.0, color="black", lw=0.8)
     for hub, radius in ((2, bicycle.rear_wheel_radius), (7, bicycle.front_wheel_radius)):
-        axes.add_patch(Circle((points[hub, 0], -points[hub, 2]), radius, fill=False, lw=2, ec=COLOURS["frame"]))
+        axes.add_patch(Circle((points[hub, 0], -points[hub, 2]), float(radius), fill=False, lw=2, ec=COLOURS["frame"]))
     _steer_axis_line(axes, bicycle, points)
     for tubes, colour in ((_REAR_TUBES, COLOURS["frame"]), (_FRONT_TUBES, COLOURS["front"])):
         for start, end in tubes:

@@ -9,6 +9,7 @@ import numpy as np
 from singletrack.model.record import UNITS
 
 if TYPE_CHECKING:
+    from singletrack.arrays import Number
     from singletrack.linear import CriticalSpeeds
     from singletrack.model import LinearModel
 
@@ -81,8 +82,8 @@ def _unit(unit: str) -> str:
     return unit.replace("^2", "$^2$").replace(" ", r"\,")
 
 
-def _bare(value: float, digits: int) -> str:
-    return f"{float(np.real(value)):.{digits}g}"
+def _bare(value: Number, digits: int) -> str:
+    return f"{float(np.asarray(value).real):.{digits}g}"
 
 
 def _number(value: float, digits: int) -> str:

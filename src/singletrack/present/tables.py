@@ -16,7 +16,7 @@ from singletrack.present.words import critical_speed_lines
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping, Sequence
 
-    from singletrack.linear import CriticalSpeeds, Modes
+    from singletrack.linear import AlwaysUnstable, CriticalSpeeds, Modes
     from singletrack.model import LinearModel
 
 __all__ = [
@@ -180,7 +180,11 @@ def eigenvalues_csv(modes: Modes) -> str:
     return write_csv(header, rows)
 
 
-def critical_speeds_text(critical: CriticalSpeeds, deviations: Mapping[str, Sequence[float]] | None = None) -> str:
+def critical_speeds_text(
+    critical: CriticalSpeeds,
+    deviations: Mapping[str, Sequence[float]] | None = None,
+    unstable: Sequence[AlwaysUnstable] = (),
+) -> str:
     """Return critical speeds and stable ranges of a single design in words.
 
     Parameters
@@ -188,6 +192,8 @@ def critical_speeds_text(critical: CriticalSpeeds, deviations: Mapping[str, Sequ
     critical : CriticalSpeeds
     deviations : mapping of "weave", "capsize" to sequences of float, optional
         Standard deviations of the speeds in m/s.
+    unstable : sequence of AlwaysUnstable, optional
+        What is unstable where no speed is stable.
 
     Examples
     --------
@@ -197,5 +203,5 @@ def critical_speeds_text(critical: CriticalSpeeds, deviations: Mapping[str, Sequ
     capsize speed   6.024 m/s
     stable          4.292 to 6.024 m/s
     """
-    lines = critical_speed_lines(critical, deviations)
+    lines = critical_speed_lines(critical, deviations, unstable)
     return "\n".join(f"{name:<16}{value}" for name, value in lines.items())

@@ -10,7 +10,8 @@ from singletrack.files.toml_write import unit_text
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
-    from singletrack.linear import CriticalSpeeds
+    from singletrack.arrays import Number
+    from singletrack.linear import AlwaysUnstable, CriticalSpeeds
     from singletrack.linear.critical import Crossing
 
 __all__ = [
@@ -53,7 +54,7 @@ def quantity_text(values: Sequence[float], unit: str) -> str:
     return f"{numbers} {unit_text(unit)}".rstrip()
 
 
-def deviation_text(deviation: float | None, unit: str) -> str:
+def deviation_text(deviation: Number | None, unit: str) -> str:
     """Return a standard deviation beside its quantity, or nothing where there is none.
 
     Parameters
@@ -93,7 +94,9 @@ def range_text(low: float, high: float) -> str:
 
 
 def critical_speed_lines(
-    critical: CriticalSpeeds, deviations: Mapping[str, Sequence[float]] | None = None
+    critical: CriticalSpeeds,
+    deviations: Mapping[str, Sequence[float]] | None = None,
+    unstable: Sequence[AlwaysUnstable] = (),
 ) -> dict[str, str]:
     """Return critical speeds and stable ranges of a single design: what they are, and the words for it.
 
@@ -104,6 +107,8 @@ def critical_speed_lines(
     critical : CriticalSpeeds
     deviations : mapping of "weave", "capsize" to sequences of float, optional
         Standard deviations of the speeds in m/s.
+    unstable : sequence of AlwaysUnstable, optional
+        What is unstable where no speed is stable.
     """
     if critical.status == "could not tell":
         return dict.fromkeys(("weave speed", "capsize speed", "stable"), "could not tell")
@@ -116,8 +121,17 @@ def critical_speed_lines(
             for crossing, spread in zip(crossings, spreads, strict=True)
         ]
         lines[f"{mode} speed"] = ", ".join(texts) or "never"
-    lines["stable"] = ", ".join(range_text(*bounds) for bounds in critical.stable_ranges) or "never"
+    never = f"never{': ' if unstable else ''}{'; '.join(map(_unstable_text, unstable))}"
+    lines["stable"] = ", ".join(range_text(*bounds) for bounds in critical.stable_ranges) or never
     return lines
+
+
+def _unstable_text(found: AlwaysUnstable) -> str:
+    """Return what a mode does that is unstable at every speed, and how fast."""
+    verb = "oscillates ever wider" if found.oscillates else "falls"
+    least, most = (f"{value:.2f}" for value in found.growth)
+    span = f"+{most}" if least == most else f"+{least} to +{most}"
+    return f"{found.mode} {verb} at every speed ({span} 1/s below 10 m/s)"
 
 
 def _direction(crossing: Crossing, mode: str) -> str:

@@ -2,5 +2,6 @@
 
 from singletrack.body.oddities import warn_of_oddities
 from singletrack.public.model import CoefficientMatrices, coefficients
+from singletrack.public.origin import Origin
 
-__all__ = ["CoefficientMatrices", "coefficients", "warn_of_oddities"]
+__all__ = ["CoefficientMatrices", "Origin", "coefficients", "warn_of_oddities"]

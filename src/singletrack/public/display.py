@@ -41,7 +41,7 @@ def lines_of_model(model: LinearModel) -> str:
         for name in _shown(model):
             entries = "], [".join(", ".join(told(entry) for entry in row) for row in _real(model, name))
             lines.append(f"{name:<2} = [[{entries}]] {UNITS[name]}")
-        lines.append(f"gravity = {told(float(np.real(model.gravity)))} m/s^2")
+        lines.append(f"gravity = {told(float(np.asarray(model.gravity).real))} m/s^2")
     return "\n".join(lines)
 
 
@@ -63,7 +63,7 @@ def _rows(model: LinearModel) -> Iterator[list[str]]:
         yield [f"{name} in {UNITS[name]}"]
         for coordinate, row in zip(model.coordinates, _real(model, name), strict=True):
             yield [coordinate, *(told(entry) for entry in row)]
-    yield ["gravity", f"{told(float(np.real(model.gravity)))} m/s^2"]
+    yield ["gravity", f"{told(float(np.asarray(model.gravity).real))} m/s^2"]
 
 
 def _what(model: LinearModel) -> str:

@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 import dataclasses
-from typing import TYPE_CHECKING, Literal, Self, overload
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any, Literal, Self, overload
 
 from singletrack import closed_form
 from singletrack.body.oddities import warn_of_oddities
 from singletrack.errors import InputError
-from singletrack.linear import CriticalSpeeds, Modes, StateSpace, critical_speeds, eigenvalues, modes, state_space
-from singletrack.model import LinearModel
+from singletrack.linear import CriticalSpeeds, Modes, StateSpace, critical_speeds, eigenvalues, modes
+from singletrack.model import LinearModel, Outputs
 from singletrack.posture import Options, named_posture, require_posture, require_records
 from singletrack.present.latex import latex_table
 from singletrack.public.certifying import certifier
 from singletrack.public.display import lines_of_model, table_of_model
+from singletrack.public.origin import Origin, observed
 from singletrack.public.plotting import figure_of_model
 
 if TYPE_CHECKING:
@@ -22,7 +24,8 @@ if TYPE_CHECKING:
 
     from matplotlib.figure import Figure
 
-    from singletrack.arrays import Array
+    from singletrack.analysis.uncertainty import EigenvalueUncertainty
+    from singletrack.arrays import Array, ArrayLike, Number
     from singletrack.certify import Certificate
     from singletrack.parameters import Bicycle, Rider
     from singletrack.posture import Mechanism
@@ -30,8 +33,14 @@ if TYPE_CHECKING:
 __all__ = ["CoefficientMatrices", "coefficients"]
 
 
+@dataclass(frozen=True, eq=False, repr=False)
 class CoefficientMatrices(LinearModel):
     """A :class:`~singletrack.model.LinearModel` that can be asked directly; attributes as there.
+
+    Attributes
+    ----------
+    origin : Origin, optional
+        Bicycle, rider and posture that it was made from.
 
     Examples
     --------
@@ -41,10 +50,21 @@ class CoefficientMatrices(LinearModel):
     ((1, 4), [4.292382536...])
     """
 
+    origin: Origin | None = field(default=None, kw_only=True)
+
     @classmethod
-    def of(cls, model: LinearModel) -> Self:
-        """Return a model of any maker as one that can be asked."""
-        return cls(**{field.name: getattr(model, field.name) for field in dataclasses.fields(LinearModel)})
+    def of(cls, model: LinearModel, origin: Origin | None = None) -> Self:
+        """Return a model of any maker as one that can be asked.
+
+        Parameters
+        ----------
+        model : LinearModel
+        origin : Origin, optional
+            What it was made from, of which the rider's joints and hands can be asked.
+        """
+        asked = object.__new__(cls)
+        asked.__dict__.update(model.__dict__, origin=origin)  # what is a model already need not be looked at again
+        return asked
 
     def __repr__(self) -> str:
         return lines_of_model(self)
@@ -53,7 +73,7 @@ class CoefficientMatrices(LinearModel):
         """Return the matrices as a table, for notebooks."""
         return table_of_model(self)
 
-    def eigenvalues(self, speeds: Array) -> Array:
+    def eigenvalues(self, speeds: ArrayLike) -> Array:
         """Return the eigenvalues at forward speeds, sorted by real then imaginary part.
 
         Parameters
@@ -68,7 +88,7 @@ class CoefficientMatrices(LinearModel):
         """
         return eigenvalues(self, speeds)
 
-    def modes(self, speeds: Array) -> Modes:
+    def modes(self, speeds: ArrayLike) -> Modes:
         """Return the eigenvalues as named modes, followed through the speeds (see :class:`Modes`)."""
         return modes(self, speeds)
 
@@ -112,12 +132,13 @@ class CoefficientMatrices(LinearModel):
 
     def plot(
         self,
-        speeds: Array = (0.0, 10.0),
+        speeds: ArrayLike = (0.0, 10.0),
         *,
         width: float = 84.0,
         title: str = "",
         kmh: bool = False,
         limit: float = 10.0,
+        uncertainty: EigenvalueUncertainty | None = None,
     ) -> Figure:
         """Return a figure of the eigenvalues over the forward speed; notebooks show it.
 
@@ -133,6 +154,9 @@ class CoefficientMatrices(LinearModel):
             Show speeds in km/h.
         limit : float
             The vertical axis runs from -limit to limit, in 1/s.
+        uncertainty : EigenvalueUncertainty, optional
+            Of a single design, whose central 95 % are shaded: see
+            :func:`~singletrack.analysis.uncertainty.eigenvalue_uncertainty`.
 
         Returns
         -------
@@ -142,7 +166,7 @@ class CoefficientMatrices(LinearModel):
         Raises
         ------
         InputError
-            For a batch of more than one axis, or a speed that is negative or not finite.
+            For a batch of more than one axis, or one with ``uncertainty``; for a speed that is negative or not finite.
 
         Examples
         --------
@@ -151,7 +175,7 @@ class CoefficientMatrices(LinearModel):
         >>> [text.get_text() for text in figure.axes[0].texts][0]
         'weave speed 4.29 m/s'
         """
-        return figure_of_model(self, speeds, width=width, title=title, kmh=kmh, limit=limit)
+        return figure_of_model(self, speeds, width=width, title=title, kmh=kmh, limit=limit, uncertainty=uncertainty)
 
     def to_latex(self, caption: str = "", digits: int = 5) -> str:
         """Return the matrices and critical speeds of a single design as a table of LaTeX.
@@ -165,9 +189,37 @@ class CoefficientMatrices(LinearModel):
         """
         return latex_table(self, self.critical_speeds(), caption, digits)
 
-    def state_space(self, speed: Array) -> StateSpace:
-        """Return the equations at one or several forward speeds in m/s as first-order systems (:class:`StateSpace`)."""
-        return state_space(self, speed)
+    def state_space(self, speed: ArrayLike, outputs: Sequence[str] | Outputs | None = None) -> StateSpace:
+        """Return the equations at one or several forward speeds as first-order systems (:class:`StateSpace`).
+
+        Parameters
+        ----------
+        speed : array, shape () or (k,)
+            In m/s.
+        outputs : sequence of str or Outputs, optional
+            What is seen; by default the states. Names of states (``lean``, ``steer rate``), of accelerations
+            (``lean acceleration``), and, with a rider, of joint angles (``right elbow``), their rates, and forces of
+            the hands (``right hand force y``; see :func:`singletrack.closed_form.rider_outputs`); or a record of such
+            outputs, which follow after the states.
+
+        Raises
+        ------
+        InputError
+            For an unknown name, or an input of which it is not known what it does to a hand.
+
+        Examples
+        --------
+        >>> from singletrack import coefficients, load_bicycle, load_rider
+        >>> model = coefficients(load_bicycle("browser"), load_rider("rider-a"), "upright")
+        >>> model.state_space([4.0, 6.0], ["lean", "right elbow", "right hand force x"]).C.shape
+        (2, 3, 4)
+        """
+        return observed(self, speed, outputs, self.origin)
+
+    def __getitem__(self, index: Any) -> Self:
+        """Return some designs of a batch: an index, slice or mask of the batch's axes."""
+        some = super().__getitem__(index)
+        return some if self.origin is None else dataclasses.replace(some, origin=self.origin.at(index))
 
 
 def coefficients(
@@ -178,9 +230,9 @@ def coefficients(
     *,
     arms: str | None = None,
     torso_lean: bool = False,
-    springs: Mapping[str, Array] | None = None,
-    dampers: Mapping[str, Array] | None = None,
-    fit: Array | None = None,
+    springs: Mapping[str, Number] | None = None,
+    dampers: Mapping[str, Number] | None = None,
+    fit: Number | None = None,
 ) -> CoefficientMatrices:
     """Return the linearised equations of motion of a bicycle, alone or with a rider.
 
@@ -234,8 +286,11 @@ def coefficients(
     require_records(bicycle, rider)
     require_posture(posture)
     options = Options(named_posture(posture), shoulder, arms, torso_lean, springs or {}, dampers or {}, fit)
-    warn_of_oddities(bicycle, rider)
-    made = CoefficientMatrices.of(closed_form.coefficients(bicycle, rider, options))
+    single = closed_form.single_design(bicycle, rider, options)
+    shares = None if single is None or single.margins is None else single.margins.shares
+    warn_of_oddities(bicycle, rider, shares)
+    model = closed_form.coefficients(bicycle, rider, options) if single is None else single.model
+    made = CoefficientMatrices.of(model, None if rider is None else Origin(bicycle, rider, options))
     # What it was made of, for certificates: no field, so that no changed copy of the model inherits it.
-    object.__setattr__(made, "design", (bicycle, rider, options))
+    made.__dict__["design"] = (bicycle, rider, options)
     return made

@@ -1,6 +1,6 @@
 """Chunks done by the workers of a Dask scheduler that the user has named, on machines that share the file system.
 
-Whoever reaches a Dask scheduler can have its workers run any code: docs/sweep.md says how to keep it to oneself (TLS).
+Whoever reaches a Dask scheduler can have its workers run any code: docs/howto/sweep.md says how to prevent it (TLS).
 A chunk that is lost, with its worker or with the connection, is given out again; one that takes too long is computed
 here. Doing a chunk twice does no harm: its files are the same to the last bit, and are moved to their place whole.
 """
@@ -31,7 +31,7 @@ _PATIENCE = 30.0
 _QUIET = 20.0
 _TLS = (
     "for tls:// set DASK_DISTRIBUTED__COMM__TLS__CA_FILE, DASK_DISTRIBUTED__COMM__TLS__CLIENT__CERT and "
-    "DASK_DISTRIBUTED__COMM__TLS__CLIENT__KEY (docs/sweep.md)"
+    "DASK_DISTRIBUTED__COMM__TLS__CLIENT__KEY (docs/howto/sweep.md)"
 )
 
 

@@ -2,6 +2,6 @@
 
 from singletrack.tracing.graph import Graph, Node
 from singletrack.tracing.interpret import trace
-from singletrack.tracing.write import javascript_function, python_function
+from singletrack.tracing.write import javascript_function, python_function, python_program
 
-__all__ = ["Graph", "Node", "javascript_function", "python_function", "trace"]
+__all__ = ["Graph", "Node", "javascript_function", "python_function", "python_program", "trace"]

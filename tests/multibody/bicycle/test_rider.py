@@ -178,7 +178,7 @@ def test_riders_go_round_in_circles(name: Any, posture: Any) -> Any:
         held = steady_motion(
             model,
             {"lean": 1e-3},
-            {"rear wheel": -5.0 / bicycle.rear_wheel_radius},
+            {"rear wheel": -5.0 / float(bicycle.rear_wheel_radius)},
             resting=["lean", "steer"],
             adjust=["steer torque"],
         )

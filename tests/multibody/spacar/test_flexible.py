@@ -237,7 +237,7 @@ def test_energy_is_kept_by_a_flexible_pendulum():
 
 
 def _bending_energy(model, number, e):
-    """Return the energy of the angles to fourth order, as docs/spacar.md has it."""
+    """Return the energy of the angles to fourth order, as docs/reference/spacar.md has it."""
     a, b = np.divide(model.by_element(e)[number][1:], 0.5)
     short = (2 * a * a + a * b + 2 * b * b) / 30
     a, b = a * (1 + a * a / 6 + short), b * (1 + b * b / 6 + short)

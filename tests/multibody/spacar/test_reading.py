@@ -114,13 +114,13 @@ def test_a_line_without_effect_is_remarked(robot):
 
 
 def test_the_program_of_the_page_runs(capsys):
-    page = Path(__file__).parents[3] / "docs" / "spacar.md"
+    page = Path(__file__).parents[3] / "docs" / "reference" / "spacar.md"
     (program,) = re.findall(r"```python\n(.*?)```", page.read_text(encoding="utf-8"), flags=re.DOTALL)
     exec(compile(program, str(page), "exec"), {})  # noqa: S102  # our own page
     assert "dynamic: e 1 2, e 1 3" in capsys.readouterr().out
 
 
 def test_every_keyword_is_on_the_page():
-    page = (Path(__file__).parents[3] / "docs" / "spacar.md").read_text(encoding="utf-8")
+    page = (Path(__file__).parents[3] / "docs" / "reference" / "spacar.md").read_text(encoding="utf-8")
     for keyword in (*KEYWORDS, *REFUSED):
         assert re.search(rf"\b{keyword}\b", page), keyword

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -84,7 +84,7 @@ def _reproduced(roots: np.ndarray, monic: np.ndarray) -> np.ndarray:
     return sound
 
 
-def refined(s: Array, coefficients: tuple[Array, ...], where: Callable[..., Array]) -> tuple[Array, Array]:
+def refined(s: Array, coefficients: tuple[Array, ...], where: Callable[..., Any]) -> tuple[Array, Array]:
     """Return roots (..., 4) after one iteration of Ehrlich and Aberth, and which of them were exact to rounding.
 
     Parameters

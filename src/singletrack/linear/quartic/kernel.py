@@ -4,7 +4,7 @@ A monic quartic s⁴ + b s³ + c s² + d s + e is the product of s² + p₁ s + 
 y = q₁ + q₂ is a root of the resolvent cubic. Of its real roots that give real factors the best separated one is
 taken; Halley's method finds it from outside, and Newton's method on the four equations for p₁, q₁, p₂, q₂ removes
 what rounding and cancellation have done so far. Then the product of the factors is compared with the quartic.
-docs/eigenvalues.md has the error analysis.
+docs/theory/eigenvalues.md has the error analysis.
 
 The algorithm is written once, for NumPy arrays, JAX arrays and (compiled by numba) single numbers: that is why its
 functions take ``where`` and ``sqrt`` as arguments, and say ``== False`` for "not".
@@ -12,7 +12,7 @@ functions take ``where`` and ``sqrt`` as arguments, and say ``== False`` for "no
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -40,8 +40,8 @@ def factor(
     c: Array,
     d: Array,
     e: Array,
-    where: Callable[..., Array],
-    sqrt: Callable[[Array], Array],
+    where: Callable[..., Any],
+    sqrt: Callable[..., Any],
     newton_steps: int = 1,
 ) -> tuple[Array, Array, Array, Array, Array]:
     """Factor quartics s⁴ + b s³ + c s² + d s + e into s² + p₁ s + q₁ and s² + p₂ s + q₂, all of them real.
@@ -77,7 +77,7 @@ def factor(
 
 
 def resolvent_root(
-    b: Array, c: Array, d: Array, e: Array, where: Callable[..., Array], sqrt: Callable[[Array], Array]
+    b: Array, c: Array, d: Array, e: Array, where: Callable[..., Any], sqrt: Callable[..., Any]
 ) -> Array:
     """Return the root y = q₁ + q₂ of y³ - c y² + (b d - 4 e) y - (b² e - 4 c e + d²), for the best pair of factors.
 
@@ -109,7 +109,7 @@ def resolvent_root(
     return sign * u + c * _THIRD
 
 
-def cubic_start(P: Array, q: Array, inner: Array, where: Callable[..., Array], sqrt: Callable[[Array], Array]) -> Array:
+def cubic_start(P: Array, q: Array, inner: Array, where: Callable[..., Any], sqrt: Callable[..., Any]) -> Array:
     """Return the largest root of u³ + P u = q to a few per cent (``inner``: q < 0 and three real roots).
 
     Parameters
@@ -186,7 +186,7 @@ def reproduces(b: Array, c: Array, d: Array, e: Array, p1: Array, q1: Array, p2:
 
 
 def ordered_roots(
-    p1: Array, q1: Array, p2: Array, q2: Array, where: Callable[..., Array], sqrt: Callable[[Array], Array]
+    p1: Array, q1: Array, p2: Array, q2: Array, where: Callable[..., Any], sqrt: Callable[..., Any]
 ) -> tuple[Array, ...]:
     """Return the roots of two factors, sorted by real then imaginary part: four real parts, then four imaginary.
 
@@ -207,7 +207,7 @@ def ordered_roots(
 
 
 def quadratic_roots(
-    p: Array, q: Array, where: Callable[..., Array], sqrt: Callable[[Array], Array]
+    p: Array, q: Array, where: Callable[..., Any], sqrt: Callable[..., Any]
 ) -> tuple[Array, Array, Array, Array]:
     """Return real and imaginary part of the lower, then of the upper root of s² + p s + q.
 
@@ -229,9 +229,7 @@ def quadratic_roots(
     return where(real, low, half), where(real, 0.0, -im), where(real, high, half), im
 
 
-def sort_two(
-    a: Array, ai: Array, b: Array, bi: Array, where: Callable[..., Array]
-) -> tuple[Array, Array, Array, Array]:
+def sort_two(a: Array, ai: Array, b: Array, bi: Array, where: Callable[..., Any]) -> tuple[Array, Array, Array, Array]:
     """Return two complex numbers, given and returned as real and imaginary parts, the smaller one first.
 
     Parameters

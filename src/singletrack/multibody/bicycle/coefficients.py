@@ -67,9 +67,9 @@ def coefficients(bicycle: Bicycle, rider: Rider | None = None, options: Options 
     )
     return LinearModel(
         M=still[0],
-        C0=still[1] if damped else None,
+        C0=still[1] if damped else np.zeros_like(still[1]),
         C1=moving[1] - still[1],
-        S0=still[2] if sprung else None,
+        S0=still[2] if sprung else np.zeros_like(still[2]),
         K0=pulled[2] - still[2],
         K2=moving[2] - still[2],
         gravity=gravity,

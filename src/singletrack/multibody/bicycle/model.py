@@ -34,7 +34,7 @@ from singletrack.posture import STEER, Options, input_name, require_records, sea
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from singletrack.mechanics import Body as Solid
+    from singletrack.mechanics import RigidBody
     from singletrack.multibody.engine.elements import Joint, Scalar
     from singletrack.multibody.engine.model import State
     from singletrack.parameters import Bicycle, Rider
@@ -67,7 +67,7 @@ def _refuse_skates(bicycle: Bicycle) -> None:
             )
 
 
-def _solid(numbers: Numbers, name: str, solid: Solid) -> Body:
+def _solid(numbers: Numbers, name: str, solid: RigidBody) -> Body:
     return Body(
         name,
         numbers.number(f"{name} mass", solid.mass),

@@ -15,6 +15,7 @@ if TYPE_CHECKING:
 
     from singletrack.arrays import Array
     from singletrack.multibody.engine.inputs import Signal
+    from singletrack.multibody.engine.prescribed import Drives
 
 __all__ = ["Evaluator", "right_side", "slope_jacobian"]
 
@@ -30,7 +31,12 @@ class Evaluator:
     """
 
     def __init__(
-        self, state: State, driven: Sequence[Signal] = (), start: float = -np.inf, stop: float = np.inf
+        self,
+        state: State,
+        driven: Sequence[Signal] = (),
+        start: float = -np.inf,
+        stop: float = np.inf,
+        drives: Drives | None = None,
     ) -> None:
         """Take the machine, its parameters and partition from a state; inputs are those inside start to stop, s."""
         self.state, self.driven = state, list(driven)
@@ -56,6 +62,9 @@ class Evaluator:
         self._buffers = buffer, closing  # must live as long as the memory is used
         self.rows = np.array(parts.rows[: parts.holonomic_count], dtype=int)
         self.dependent = np.array(parts.dependent_coordinates, dtype=int)
+        self.drives = drives if drives and drives.names else None
+        self.led = list(drives.places) if drives else []
+        self.led_speeds = [parts.independent_speeds.index(place) for place in self.led]
 
     def inputs(self, t: float) -> Array:
         """Return the inputs at a time, seen from inside the interval.
@@ -87,9 +96,21 @@ class Evaluator:
         self.q[:], self.u_i[:] = q, u_i
         self.inputs(t)
         try:
-            self._evaluate()
+            if self.drives is None:
+                self._evaluate()
+            else:
+                self._drive(t, self.drives)
         except RuntimeError:  # the linear solver's word for an exactly singular matrix
             self.u[:] = self.a[:] = self.multipliers[:] = np.nan
+
+    def _drive(self, t: float, drives: Drives) -> None:
+        """Evaluate with the prescribed coordinates where they should be, and the forces that it takes."""
+        value, rate, acceleration = self._wanted(t, drives)
+        self.q[self.led], self.u_i[self.led_speeds] = value, rate
+        drives.solve(self._evaluate, acceleration, self.led, self)
+
+    def _wanted(self, t: float, drives: Drives) -> Array:
+        return drives.at(min(max(t, self.low), self.high))
 
     def slope(self, t: float, y: Array) -> Array:
         """Return ``y' = [u, a_i]`` for ``y = [q, u_i]``.
@@ -143,6 +164,9 @@ class Evaluator:
             Close to the constraints.
         """
         n = len(self.q)
+        if self.drives is not None:
+            y = y.copy()
+            y[self.led] = self._wanted(t, self.drives)[0]
         q = self.close(y[:n]) if np.all(np.isfinite(y)) else None
         if q is None:
             return None

@@ -102,7 +102,12 @@ def _dependent(
     return coordinates, sorted(coordinates + _pivots(reduced, others))
 
 
-def partition(system: System, jacobian: np.ndarray[Any, Any], independent: Sequence[str] | None = None) -> Partition:
+def partition(
+    system: System,
+    jacobian: np.ndarray[Any, Any],
+    independent: Sequence[str] | None = None,
+    held: Sequence[str] = (),
+) -> Partition:
     """Choose independent coordinates and speeds for a constraint Jacobian (rows, n).
 
     Parameters
@@ -114,6 +119,8 @@ def partition(system: System, jacobian: np.ndarray[Any, Any], independent: Seque
     independent
         Coordinates whose rates shall be the independent speeds, by name (default: those of the system, else the
         best conditioned choice).
+    held
+        Coordinates that must be among them, by name, where the others are chosen.
 
     Raises
     ------
@@ -135,7 +142,7 @@ def partition(system: System, jacobian: np.ndarray[Any, Any], independent: Seque
             f"independent speeds {', '.join(wanted) or 'none'}: the machine has {freedoms} degrees of freedom left, "
             f"not {len(wanted)}{note}"
         )
-    kept = [] if wanted is None else [names.index(name) for name in wanted]
+    kept = [names.index(name) for name in (held if wanted is None else wanted)]
     count = sum(i < holonomic for i in rows)
     coordinates, speeds = _dependent(_normalised(jacobian[rows]), count, kept, choose=wanted is None)
     if len(coordinates) != count or len(speeds) != len(rows):

@@ -25,6 +25,7 @@ if TYPE_CHECKING:
 
     from singletrack.arrays import Array
     from singletrack.multibody.engine.inputs import Signal
+    from singletrack.multibody.engine.prescribed import Drives
     from singletrack.multibody.engine.singular import RankLoss
 
 __all__ = ["Passed", "continue_through"]
@@ -45,10 +46,10 @@ class Passed:
     at: Callable[[float], State]
 
 
-def best_choice(state: State) -> State:
-    """Return the state with the best independent speeds there are in it."""
+def best_choice(state: State, held: Sequence[str] = ()) -> State:
+    """Return the state with the best independent speeds there are in it, some of them held (by name)."""
     jacobian, _ = state.model.kinetics(state.q, state.parameters)
-    parts = partition(state.model.system.replace(independent=None), jacobian)
+    parts = partition(state.model.system.replace(independent=None), jacobian, held=held)
     return State(state.model, state.parameters, parts, state.q, state.u)
 
 
@@ -80,7 +81,12 @@ def _nodes(evaluator: Evaluator, state: State, t: float, spacing: float) -> tupl
 
 
 def continue_through(
-    state: State, t: float, loss: RankLoss, driven: Sequence[Signal], bounds: tuple[float, float]
+    state: State,
+    t: float,
+    loss: RankLoss,
+    driven: Sequence[Signal],
+    bounds: tuple[float, float],
+    drives: Drives | None = None,
 ) -> Passed:
     """Continue a motion from a state at a time close before a singular position to the other side of it.
 
@@ -96,6 +102,8 @@ def continue_through(
         The inputs.
     bounds : pair of float
         The times between which the motion may be continued, s.
+    drives : Drives, optional
+        Prescribed motions.
 
     Raises
     ------
@@ -104,8 +112,9 @@ def continue_through(
     """
     from scipy.interpolate import KroghInterpolator  # slow to import
 
-    chosen = best_choice(state)
-    evaluator = Evaluator(chosen, driven, *bounds)
+    held = drives.names if drives else ()
+    chosen = best_choice(state, held)
+    evaluator = Evaluator(chosen, driven, *bounds, drives=drives)
     distance = max(loss.time - t, 1e-12)
     times, nodes = _nodes(evaluator, chosen, t, SPACING * distance)
     polynomial = KroghInterpolator(np.repeat(times, 3), nodes.reshape(3 * NODES, -1))
@@ -118,7 +127,7 @@ def continue_through(
     q, u = on(stop)
     try:
         closed = close(state.model, q, state.parameters, range(len(q)))
-        after = best_choice(State(state.model, state.parameters, chosen.partition, closed, u))
+        after = best_choice(State(state.model, state.parameters, chosen.partition, closed, u), held)
     except ModelError:
         raise ModelError("the branch does not continue") from None
     jacobian, _ = state.model.kinetics(closed, state.parameters)

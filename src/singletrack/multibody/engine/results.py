@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from singletrack.multibody.engine.dynamics import reduced, split_wheel_forces
+from singletrack.multibody.engine.evaluation import Evaluator
 from singletrack.multibody.engine.model import State
 
 if TYPE_CHECKING:
@@ -26,6 +27,7 @@ if TYPE_CHECKING:
 
     from singletrack.arrays import Array
     from singletrack.multibody.engine.inputs import Signal
+    from singletrack.multibody.engine.prescribed import Drives
 
 __all__ = ["Snapshot", "gather"]
 
@@ -71,7 +73,10 @@ def _blocks(matrix: Any, count: int, width: int) -> Array:
 
 
 def gather(
-    snapshots: Sequence[Snapshot], driven: Sequence[Signal], happened: Sequence[tuple[str, float]]
+    snapshots: Sequence[Snapshot],
+    driven: Sequence[Signal],
+    happened: Sequence[tuple[str, float]],
+    drives: Drives | None = None,
 ) -> xr.Dataset:
     """Collect the snapshots of a simulation, and what happened in it, into a data set (see the module's text).
 
@@ -83,12 +88,19 @@ def gather(
         The inputs.
     happened : sequence of (str, float)
         Names and times (s) of events.
+    drives : Drives, optional
+        Prescribed motions, of which the inputs tell what they take.
     """
     import xarray as xr  # slow to import
 
     start = snapshots[0].state
     t = np.array([snapshot.time for snapshot in snapshots])
     inputs = np.array([[signal(moment) for signal in driven] for moment in t]).reshape(len(t), len(driven))
+    if drives is not None and drives.names:
+        for i, snapshot in enumerate(snapshots):
+            evaluator = Evaluator(snapshot.state, driven, drives=drives)
+            evaluator.respond(snapshot.time, snapshot.state.q, snapshot.state.u[evaluator.free])
+            inputs[i] = evaluator.f
     variables = _variables(start, snapshots, inputs)
     variables["event_time"] = ("event", np.array([moment for _, moment in happened], dtype=float))
     system = start.model.system

@@ -19,6 +19,7 @@ from singletrack.multibody.engine.evaluation import Evaluator
 from singletrack.multibody.engine.events import Event, Moment, Watched, default_ends, watched
 from singletrack.multibody.engine.feedback import Controller
 from singletrack.multibody.engine.inputs import signals
+from singletrack.multibody.engine.prescribed import driven_state
 from singletrack.multibody.engine.results import Snapshot, gather
 from singletrack.multibody.engine.stepping import HaltError, Run, advance
 
@@ -30,6 +31,7 @@ if TYPE_CHECKING:
     from singletrack.arrays import Array
     from singletrack.multibody.engine.inputs import Given
     from singletrack.multibody.engine.model import State
+    from singletrack.multibody.engine.prescribed import Law, Prescribed
     from singletrack.parameters.feedback import Feedback
 
 __all__ = ["Event", "simulate"]
@@ -52,6 +54,7 @@ def simulate(
     atol: float = 1e-11,
     max_step: float = np.inf,
     most_steps: int = 200_000,
+    prescribed: Mapping[str, Prescribed | Law] | None = None,
     feedback: Feedback | None = None,
     progress: Callable[[float], object] | None = None,
 ) -> xr.Dataset:
@@ -77,6 +80,10 @@ def simulate(
         Integrator of scipy (DOP853 or RK45; Radau for stiff machines), tolerances of a step, longest step, s.
     most_steps
         How many steps may be taken, which bounds the time of computing.
+    prescribed
+        Coordinates that move as given, by name: functions of time (s) that return value, rate and acceleration, or
+        :class:`Prescribed`. The results' ``input`` has what it takes: on ``steer`` the ``steer torque``, on a
+        coordinate without an input of its own the ``NAME drive``.
     feedback, progress
         State feedback with gains that are numbers; what is called with the time reached, s, after every step.
 
@@ -88,7 +95,8 @@ def simulate(
     Raises
     ------
     ModelError
-        For times that do not increase, or where it cannot go on; time, place and loops are named.
+        For times that do not increase, prescribed motions that do not fit the state, or where it cannot go on; time,
+        place and loops are named.
 
     Examples
     --------
@@ -100,17 +108,18 @@ def simulate(
     (-1.0, 'all times reached')
     """
     times = _checked(times, method, singular, trouble)
+    state, drives = driven_state(state, prescribed, float(times[0]), float(times[-1]), inputs or {})
     driven, control = signals(state.model.system, inputs), None
     if feedback is not None:
         control = Controller(feedback, state.model.system, driven, (float(times[0]), float(times[-1])))
         driven = control.signals
     if ends is None:
         ends = not any(event.terminal for event in events)
-    longest = min([max_step, *(signal.max_step for signal in driven)])
+    longest = min([max_step, drives.max_step, *(signal.max_step for signal in driven)])
     options = {"rtol": rtol, "atol": atol, "max_step": longest}
     stops = default_ends(state) if ends else []
     watch = [*map(watched, events), *stops]
-    run = Run(state, driven, watch, times, method, options, singular == "pass", most_steps, progress)
+    run = Run(state, driven, watch, times, method, options, singular == "pass", most_steps, progress, drives)
     _end_at_once(run, stops)
     return _finish(run, _go(run, trouble, control))
 
@@ -118,7 +127,8 @@ def simulate(
 def _go(run: Run, trouble: str, control: Controller | None) -> str:
     """Run through the intervals in which the inputs are smooth; return what went wrong."""
     first, last = float(run.times[0]), float(run.times[-1])
-    breaks = {b for signal in run.signals for b in signal.breaks} | (control.breaks if control else set())
+    breaks = {b for signal in run.signals for b in signal.breaks} | run.drives.breaks
+    breaks |= control.breaks if control else set()
     try:
         for bounds in pairwise([first, *sorted(b for b in breaks if first < b < last), last]):
             if control is not None:
@@ -135,7 +145,7 @@ def _go(run: Run, trouble: str, control: Controller | None) -> str:
 
 
 def _finish(run: Run, reason: str) -> xr.Dataset:
-    found = gather(run.snapshots, run.signals, run.happened)
+    found = gather(run.snapshots, run.signals, run.happened, run.drives)
     found.attrs["end"] = reason or run.ended or "all times reached"
     found.attrs["end_time"] = run.time
     if run.passed:
@@ -159,7 +169,7 @@ def _checked(times: Array, method: str, singular: str, trouble: str) -> Array:
 
 def _end_at_once(run: Run, ends: Sequence[Watched]) -> None:
     """End a run that begins where it should end."""
-    evaluator = Evaluator(run.state, run.signals)
+    evaluator = Evaluator(run.state, run.signals, drives=run.drives)
     evaluator.respond(run.time, run.state.q, run.state.u[evaluator.free])
     start = Moment(run.time, run.state, evaluator.multipliers.copy())
     for event in ends:

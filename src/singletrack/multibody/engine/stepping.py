@@ -16,6 +16,7 @@ from singletrack.multibody.engine.events import Moment, Watched, passages
 from singletrack.multibody.engine.inputs import Signal
 from singletrack.multibody.engine.model import State
 from singletrack.multibody.engine.passing import NEAR, best_choice, continue_through
+from singletrack.multibody.engine.prescribed import Drives
 from singletrack.multibody.engine.reduction import MOST_ROWS, pivot_growth
 from singletrack.multibody.engine.results import Snapshot
 from singletrack.multibody.engine.singular import RankLoss, Usual, find_rank_loss, firmness, weakest
@@ -47,6 +48,7 @@ class Run:
     passes: bool
     steps_left: int
     progress: Callable[[float], object] | None = None
+    drives: Drives = field(default_factory=Drives)
     first_step: float | None = None
     time: float = field(init=False)
     usual: Usual = field(init=False)
@@ -110,7 +112,7 @@ def advance(run: Run, stop: float, bounds: tuple[float, float]) -> None:
     HaltError
         Where the machine becomes singular, or the steps go to nothing.
     """
-    evaluator = Evaluator(run.state, run.signals, *bounds)
+    evaluator = Evaluator(run.state, run.signals, *bounds, drives=run.drives)
     solver = _solver(run, evaluator, stop)
     at_first, side = quality(run.state)
     condition = at_first
@@ -159,7 +161,7 @@ def _solver(run: Run, evaluator: Evaluator, stop: float) -> Any:
     options = dict(run.options)
     if run.first_step is not None:
         options["first_step"] = min(run.first_step, stop - run.time)
-    if run.method in IMPLICIT:
+    if run.method in IMPLICIT and not run.drives.names:
         options["jac"] = slope_jacobian(evaluator)
     try:
         return getattr(scipy.integrate, run.method)(evaluator.slope, run.time, y, stop, **options)
@@ -220,7 +222,7 @@ def _repeat(run: Run, bounds: tuple[float, float], solver: Any) -> None:
 
 def _choose_anew(run: Run) -> None:
     try:
-        chosen = best_choice(run.state)
+        chosen = best_choice(run.state, run.drives.names)
     except (ModelError, np.linalg.LinAlgError, ValueError) as error:
         raise HaltError(f"singular at t = {run.time:.6g} s: {error}") from None
     rank = len(run.state.partition.rows)
@@ -258,7 +260,7 @@ def _at_singular(run: Run, loss: RankLoss, bounds: tuple[float, float]) -> None:
     if not run.passes:
         raise HaltError(here)
     try:
-        passed = continue_through(run.state, run.time, loss, run.signals, bounds)
+        passed = continue_through(run.state, run.time, loss, run.signals, bounds, run.drives)
     except ModelError as error:
         raise HaltError(f"{here}; {error}") from None
     zero = np.zeros(len(run.state.model.system.rows))

@@ -6,7 +6,7 @@ BEAMNL and PLBEAMNL therefore have the energy of the angles themselves, to fourt
 
     theta_i = (e_i / l0) (1 + (e_i / l0)^2 / 6 + s),    s = shortening of the chord by bending,
 
-where e_i^2 sums both planes; in space also the coupling of bending with the twist within the element (docs/spacar.md).
+where e_i^2 sums both planes; in space what couples bending and twist within the element (docs/reference/spacar.md).
 For small deflections nothing changes.
 """
 

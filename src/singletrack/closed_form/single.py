@@ -1,0 +1,165 @@
+"""One sound design by its structure's program: a thousand scalar statements instead of a thousand small arrays.
+
+What is not plainly sound is left to the equations for arrays, which know every fault by name.
+"""
+
+from __future__ import annotations
+
+import functools
+from dataclasses import dataclass
+from math import isfinite, pi, sqrt
+from operator import itemgetter
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from singletrack.closed_form.programs import MATRICES, program_of
+from singletrack.closed_form.round_tyres import on_round_tyres
+from singletrack.model import COORDINATES, INPUTS, LinearModel
+from singletrack.posture import STEER, TORSO_LEAN, Margins, Options, input_name
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping, Sequence
+
+    from singletrack.arrays import Array
+    from singletrack.closed_form.programs import Program
+    from singletrack.parameters import Bicycle, Rider
+
+__all__ = ["Single", "single_design"]
+
+#: Well within what the equations for arrays let pass: limbs' reach, residual and condition of loops, inertia of a free
+#: joint, mass matrix.
+_REACH = 1e-9
+_RESIDUAL, _CONDITION, _INERTIA = 1e-12, 1e8, 1e-9
+_DEFINITE = 1e-6
+#: Coordinates and inputs by their number.
+_NAMES = {2: (COORDINATES, INPUTS), 3: ((*COORDINATES, TORSO_LEAN), (*INPUTS, input_name(TORSO_LEAN)))}
+_WRONG = (ValueError, ZeroDivisionError, OverflowError)
+
+
+@dataclass(frozen=True, eq=False)
+class Single:
+    """A single sound design.
+
+    Attributes
+    ----------
+    model : LinearModel
+    margins : Margins, or None without rider
+    """
+
+    model: LinearModel
+    margins: Margins | None
+
+
+def single_design(bicycle: Bicycle, rider: Rider | None, options: Options) -> Single | None:
+    """Return the model of a single design by its program; None for all that is a batch, faulty, odd or rare.
+
+    Parameters
+    ----------
+    bicycle : Bicycle
+    rider : Rider, optional
+    options : Options
+
+    Examples
+    --------
+    >>> from singletrack import load_bicycle, load_rider
+    >>> from singletrack.posture import Options
+    >>> found = single_design(load_bicycle("browser"), load_rider("rider-a"), Options("upright"))
+    >>> round(float(found.model.M[1, 1]), 4), round(found.margins.arm, 3)
+    (0.4614, 0.945)
+    """
+    if not bicycle.is_single or (rider is not None and not rider.is_single):
+        return None
+    program = program_of(bicycle, rider, options) if rider is not None or _needs_no_rider(options) else None
+    values = None if program is None else _values(program, bicycle, rider)
+    laws = None if program is None else _laws(options, program.freedoms)
+    if program is None or values is None or laws is None:
+        return None
+    try:
+        found = _function(program)(*values)
+    except _WRONG:
+        return None
+    n = program.freedoms
+    if not isfinite(sum(found)) or not _definite(found, n):
+        return None
+    seated, load = None, None
+    if rider is not None:
+        size = len(MATRICES) * n * n
+        load, seated = (found[size], found[size + 1]), Margins(*found[size + 2 :])
+        if not _sits(found[size + 2 :], rider):
+            return None
+    M, C1, K0, K2 = np.array(found[: len(MATRICES) * n * n]).reshape(-1, n, n)
+    names, (C0, S0) = _NAMES[n], laws
+    model = LinearModel(M, C1, K0, K2, bicycle.gravity, C0=C0, S0=S0, coordinates=names[0], inputs=names[1])
+    return Single(on_round_tyres(model, bicycle, load), seated)
+
+
+def _needs_no_rider(options: Options) -> bool:
+    return options.posture == "rigid" and not options.torso_lean and options.fit is None
+
+
+@functools.cache
+def _function(program: Program) -> Callable[..., tuple[float, ...]]:
+    return program.function()
+
+
+@functools.cache
+def _reader(program: Program) -> Callable[[Mapping[str, Any]], tuple[Any, ...]]:
+    return itemgetter(*program.of_bicycle, *program.of_rider)
+
+
+def _values(program: Program, bicycle: Bicycle, rider: Rider | None) -> tuple[float, ...] | None:
+    """Return the values that a program takes, or None if one is missing."""
+    own: dict[str, Any] = bicycle.__dict__
+    if rider is not None:
+        width, thickness = rider.torso_section
+        lean = rider.forward_lean_angle
+        if lean is None:
+            lean = rider.forward_lean_angles.get(bicycle.name)
+            lean = lean if type(lean) is float and 0 < lean < pi / 2 else None
+        drop = bicycle.handlebar_drop
+        own = {**own, **rider.__dict__, "torso_width": width, "torso_thickness": thickness, "forward_lean_angle": lean}
+        own["handlebar_drop"] = 0.0 if drop is None else drop
+    found = _reader(program)(own)
+    return None if None in found else found
+
+
+def _laws(options: Options, freedoms: int) -> tuple[Array, Array] | None:
+    """Return C0 and S0 of springs and dampers on the steer and the torso's lean; None where there are others."""
+    found = np.zeros((2, freedoms, freedoms))
+    for matrix, amounts in zip(found, (options.dampers, options.springs), strict=True):
+        for name, amount in amounts.items():
+            place = 1 if name == STEER else 2
+            if name not in (STEER, TORSO_LEAN) or place >= freedoms or type(amount) is not float:
+                return None
+            matrix[place, place] = amount
+    return found[0], found[1]
+
+
+def _sits(margins: Sequence[float], rider: Rider) -> bool:
+    """Tell whether limbs reach and fold and the arms follow the steer, with room to spare; margins as they stand."""
+    arm, leg, residual, condition, inertia = margins
+    own = rider.__dict__
+    if not (residual < _RESIDUAL and condition < _CONDITION and inertia > _INERTIA):
+        return False
+    for share, upper, lower in (
+        (arm, own["upper_arm_length"], own["lower_arm_length"]),
+        (leg, own["upper_leg_length"], own["lower_leg_length"]),
+    ):
+        if not (share < 1 - _REACH and share * (upper + lower) > abs(upper - lower) + _REACH):
+            return False
+    return True
+
+
+def _definite(entries: tuple[float, ...], n: int) -> bool:
+    """Tell whether the mass matrix, the first n x n of the entries, is positive definite without any doubt."""
+    diagonal = entries[0 : n * n : n + 1]
+    if min(diagonal) <= 0:
+        return False
+    a = entries[1] / sqrt(diagonal[0] * diagonal[1])
+    if n == 2:
+        return abs(a) < 1 - _DEFINITE
+    b = entries[2] / sqrt(diagonal[0] * diagonal[2])
+    c = entries[5] / sqrt(diagonal[1] * diagonal[2])
+    # Leading minors of M scaled to a unit diagonal; its least eigenvalue is at least 4/9 of the last one.
+    return abs(a) < 1 - _DEFINITE and 1 + 2 * a * b * c - a * a - b * b - c * c > _DEFINITE
