@@ -104,7 +104,7 @@ def figure_bytes(figure: Figure, kind: str, dots: float | None = None) -> bytes:
     figure : Figure
     kind : {"png", "svg", "pdf"}
     dots : float, optional
-        Per inch, of a png.
+        Number of them per inch, of a png.
     """
     content = io.BytesIO()
     with style():
