@@ -191,6 +191,24 @@ def test_a_torso_that_has_met_capsize_leaves_weave_whole(spring, damper):
     assert (np.abs(roots[2:, 2]) < 1).all()
 
 
+@pytest.mark.parametrize(("bicycle", "posture"), [("browser", "upright"), ("stratos", "leaned"), ("stratos", "rigid")])
+@pytest.mark.parametrize("damper", [20.0, 50.0])
+def test_castering_grows_past_a_damped_torso_and_never_falls(bicycle, posture, damper):
+    """Rider A's torso with a damper: its decaying root hardly moves, castering passes it as a pair in between."""
+    model = coefficients(
+        load_bicycle(bicycle), load_rider("rider-a"), posture, torso_lean=True, dampers={"torso lean": damper}
+    )
+    found = modes(model, [5.0, 60.0, 120.0])
+    castering, torso = found.eigenvalues[:, 3], found.eigenvalues[:, 4:]
+    assert (castering.real < 0).all()
+    # As physics has it at high speed: castering as fast as the speed is high, the torso's roots bounded, one falls.
+    assert castering[2].real / castering[1].real == pytest.approx(2.0, rel=0.05)
+    assert torso[2].real.max() > 1.0
+    assert torso[2].real.min() == pytest.approx(torso[1].real.min(), rel=0.4)
+    # At riding speed the torso's decaying root is that of its damper, faster than castering, or in a pair with it.
+    assert torso[0].real.min() <= castering[0].real + 1e-9
+
+
 def test_crossings_and_modes_have_the_same_names():
     for spring, damper in ((500.0, 30.0), (1e5, 100.0), (2000.0, 100.0)):
         model = with_torso(load_bicycle("stratos"), spring, damper)

@@ -28,7 +28,7 @@ class AlwaysUnstable(NamedTuple):
     ----------
     mode : str
     oscillates : bool
-        Whether it is a pair anywhere below 10 m/s; else it falls.
+        Whether it is a pair at all speeds below 10 m/s; else it falls at some at least.
     growth : (float, float)
         Least and greatest real part of its eigenvalue from 0.1 to 10 m/s, 1/s.
     """
@@ -75,19 +75,11 @@ def always_unstable(model: LinearModel, critical: CriticalSpeeds | None = None) 
     between = [(a + b) / 2 for a, b in itertools.pairwise(bounds)] + [2 * bounds[-1] + 1.0]
     speeds = np.concatenate([between, _TOLD])
     found = modes(model, speeds)
-    growth = found.eigenvalues.real
-    columns: dict[str, int] = {}
-    for column in np.flatnonzero((growth > 0).all(axis=0)):
-        name = found.names[int(column)]
-        if name not in columns or growth[:, column].max() > growth[:, columns[name]].max():
-            columns[name] = int(column)
-    told = slice(len(between), None)
-    one_each = [
-        AlwaysUnstable(
-            name,
-            bool(np.any(found.eigenvalues[told, column].imag)),
-            (float(growth[told, column].min()), float(growth[told, column].max())),
-        )
-        for name, column in columns.items()
-    ]
+    told, one_each = slice(len(between), None), []
+    for name in dict.fromkeys(found.names):
+        roots = found.eigenvalues[:, [own == name for own in found.names]]
+        fastest = np.take_along_axis(roots, np.argmax(roots.real, axis=-1)[:, None], axis=-1)[:, 0]
+        if (fastest.real > 0).all():
+            growth = (float(fastest[told].real.min()), float(fastest[told].real.max()))
+            one_each.append(AlwaysUnstable(name, bool(np.all(fastest[told].imag)), growth))
     return tuple(sorted(one_each, key=lambda one: -one.growth[1]))

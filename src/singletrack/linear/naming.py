@@ -3,12 +3,13 @@
 Each coordinate beyond lean and steer has two roots in which it takes the greatest part (a pair, or two real roots where
 it is overdamped or falls over): they carry its name. This is decided at the riding speed, of some, at which the parts
 are told apart best. The four others are named at high speed, where every bicycle is alike: a pair is weave; of two real
-ones the smaller is capsize and the other castering.
+ones the smaller is capsize and the other castering, which grows with the speed.
 
 Names go from one interval to the next (:mod:`singletrack.linear.branches`), first up from the riding speed, then down
-from the highest. Two real roots that meet become a pair and keep their order when it splits. Where weave has split and
-half of it meets a root of another mode, the oscillation goes on as weave, and the half that is left takes the other's
-name.
+from the highest. Two real roots that meet become a pair and keep their order when it splits; but castering, which
+grows with the speed past a further coordinate's root, is the slower of the two below such a pair and the faster above
+(:mod:`singletrack.linear.castering`). Where weave has split and half of it meets a root of another mode, the
+oscillation goes on as weave, and the half that is left takes the other's name.
 """
 
 from __future__ import annotations
@@ -18,11 +19,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from singletrack.linear.branches import EDGES, Branches, find_branches, in_order, places
+from singletrack.linear.castering import CASTERING, FURTHER, castering_apart, castering_grows
 from singletrack.linear.pencil import Pencil
 
 __all__ = ["follow"]
 
-_WEAVE, _CAPSIZE, _CASTERING, _FURTHER = (0, 1), 2, 3, 4
+_WEAVE, _CAPSIZE = (0, 1), 2
 _HIGHEST = float(EDGES[-1])
 #: Speeds at which further coordinates may be named, in units of the riding speed (some 5 to 12 m/s for bicycles).
 _RIDING = np.array([3.0, 4.0, 6.0])
@@ -122,7 +124,7 @@ class _Path:
             design = np.flatnonzero(step < self.count)
             k = self.start[design] + step
             above[k] = _carried(node_roots[design], node_columns[design], self.at_high[k])
-            below[k] = _through_meeting(above[k], self.block[k], self.at_high[k], self.at_low[k])
+            below[k] = _through_meeting(above[k], self.block[k], self.at_high[k], self.at_low[k], up=False)
             node_roots[design], node_columns[design] = self.at_low[k], below[k]
         return columns, above, below
 
@@ -134,10 +136,12 @@ class _Path:
             design = np.flatnonzero(first - step >= self.start)
             k = first[design] - step
             lower = _carried(node_roots[design], node_columns[design], self.at_low[k])
-            upper = _through_meeting(lower, self.block[k], self.at_low[k], self.at_high[k])
+            upper = _through_meeting(lower, self.block[k], self.at_low[k], self.at_high[k], up=True)
             node_roots[design], node_columns[design] = self.at_high[k], upper
         columns = _carried(node_roots, node_columns, self.highest)
-        return _columns_of_four(self.highest, np.where(columns >= _FURTHER, columns, -1))
+        columns = _columns_of_four(self.highest, np.where(columns >= FURTHER, columns, -1))
+        half = np.linalg.eigvals(self.p.state(np.full((len(self.p), 1), _HIGHEST / 2)))[:, 0]
+        return castering_grows(self.highest, half, columns)
 
 
 def _padded(values: np.ndarray, start: np.ndarray, count: np.ndarray) -> np.ndarray:
@@ -148,7 +152,7 @@ def _padded(values: np.ndarray, start: np.ndarray, count: np.ndarray) -> np.ndar
 
 def _upper_first(named: np.ndarray, freedoms: int) -> np.ndarray:
     """Put the upper root of a pair, or the lower of two real roots, into the first of a mode's two columns."""
-    for first in (0, *range(_FURTHER, 2 * freedoms, 2)):
+    for first in (0, *range(FURTHER, 2 * freedoms, 2)):
         one, two = named[..., first], named[..., first + 1]
         both_real = (one.imag == 0) & (two.imag == 0)
         swap = ((one.imag < 0) & (two.imag > 0)) | (both_real & (one.real > two.real))
@@ -164,10 +168,13 @@ def _carried(known: np.ndarray, columns: np.ndarray, roots: np.ndarray) -> np.nd
     return result
 
 
-def _through_meeting(columns: np.ndarray, block: np.ndarray, before: np.ndarray, after: np.ndarray) -> np.ndarray:
+def _through_meeting(
+    columns: np.ndarray, block: np.ndarray, before: np.ndarray, after: np.ndarray, *, up: bool
+) -> np.ndarray:
     """Return the columns of places (r, N) at the other end of intervals in which a block may join to a pair."""
+    columns = castering_apart(columns, block, before, after, up=up)
     row = np.flatnonzero(block >= 0)
-    row = row[before[row, block[row]].imag == 0]  # joins; a pair that splits keeps its order
+    row = row[before[row, block[row]].imag == 0]  # joins; other pairs that split keep their order
     one, other = columns[row, block[row]], columns[row, block[row] + 1]
     half = (one < _CAPSIZE) != (other < _CAPSIZE)  # half of weave and a root of another mode
     row, one, other = row[half], one[half], other[half]
@@ -226,7 +233,7 @@ def _columns_by_parts(roots: np.ndarray, part: np.ndarray) -> tuple[np.ndarray, 
         better = np.maximum(best_pair, best_reals)[row, which]
         mixed = np.stack([np.argmax(real, axis=-1), np.minimum(slow + 1, count - 1)], axis=-1)
         chosen = np.where((best_mixed[row, which] > better)[:, None], mixed, chosen)
-        columns[row[:, None], chosen] = _FURTHER + 2 * which[:, None] + [0, 1]
+        columns[row[:, None], chosen] = FURTHER + 2 * which[:, None] + [0, 1]
         waiting[row, which] = False
         others = np.where(columns < 0, further[row, :, which], 0.0).max(axis=-1)
         clear = np.minimum(clear, further[row[:, None], chosen, which[:, None]].mean(axis=-1) - others)
@@ -251,12 +258,12 @@ def _last_four(roots: np.ndarray) -> np.ndarray:
     castering = np.where(capsize == 0, 1, 0)
     place = np.arange(4)
     columns = np.full(roots.shape, -1)
-    columns[place == capsize[:, None]], columns[place == castering[:, None]] = _CAPSIZE, _CASTERING
+    columns[place == capsize[:, None]], columns[place == castering[:, None]] = _CAPSIZE, CASTERING
     rest = np.argsort(columns >= 0, axis=-1, kind="stable")[:, :2]
     np.put_along_axis(columns, rest, np.broadcast_to(_WEAVE, rest.shape), axis=-1)
     # Two pairs: the slower one has the names of the real roots, which it has yet to become.
     falls = roots[:, :1].real < 0  # castering, the faster one, is the lower then
-    two_pairs = np.where(falls, [_CASTERING, _CAPSIZE, *_WEAVE], [_CAPSIZE, _CASTERING, *_WEAVE])
+    two_pairs = np.where(falls, [CASTERING, _CAPSIZE, *_WEAVE], [_CAPSIZE, CASTERING, *_WEAVE])
     result: np.ndarray = np.where((real == 0)[:, None], two_pairs, columns)
     return result
 
