@@ -200,7 +200,7 @@ def eigenmotions(model: LinearModel, speeds: ArrayLike, roots: np.ndarray) -> np
     speeds : array, shape (k,)
         In m/s.
     roots : complex array, shape (..., k, 2 n)
-        Eigenvalues at these speeds, in any order.
+        Eigenvalues at these speeds, in 1/s, in any order.
 
     Returns
     -------
