@@ -105,7 +105,8 @@ def _most_placed(
     clear : dict of int to array, shape (k,)
         How far each place is from all that is drawn.
     """
-    shuffled, order, best = np.random.default_rng(0), list(places), {}
+    shuffled, order = np.random.default_rng(0), list(places)
+    best: dict[int, np.ndarray] = {}
     for _ in range(_TRIES):
         found: dict[int, np.ndarray] = {}
         for index in order:
@@ -118,7 +119,8 @@ def _most_placed(
         if len(best) == len(places):
             break
         # Whoever found no room goes first; the rest in another order.
-        order = sorted(shuffled.permutation(list(places)).tolist(), key=lambda index, seated=found: index in seated)
+        again: list[int] = shuffled.permutation(list(places)).tolist()
+        order = [index for index in again if index not in found] + [index for index in again if index in found]
     return best
 
 
