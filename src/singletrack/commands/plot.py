@@ -30,7 +30,7 @@ from singletrack.files.speeds import parse_speeds
 from singletrack.linear import critical_speeds, modes
 from singletrack.present.maps import map_figure, parameter_figure
 from singletrack.present.plotting import Drawn, overlay_figure, single_figure
-from singletrack.present.words import KILOMETRES, METRES
+from singletrack.present.words import KILOMETRES, METRES, SpeedUnit
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -88,23 +88,36 @@ def run(
         deliver_figure(_eigenvalues(drawn, look | {"unit": unit, "limit": limit}), output)
         return
     design = _only(made, options, bands=bands)
+    figure = _varied(design, over, kind, at, ends, look, unit, limit)
+    deliver_figure(figure, output)
+
+
+def _varied(
+    design: Design,
+    over: str,
+    kind: OverKind,
+    at: str,
+    ends: tuple[float, float],
+    look: dict[str, Any],
+    unit: SpeedUnit,
+    limit: float,
+) -> Figure:
+    """Return the figure of a parameter that varies."""
     name, values = parse_over(design, over)
     label, factor = axis_label(design, name)
     if kind is OverKind.map:
         rows = np.linspace(values[0], values[-1], max(_ROWS, len(values)))
         found = stability_map(design, name, rows)
         _say_lost(family(design, name, rows), label, factor)
-        figure = map_figure(found, factor, label, ends[1], **look, unit=unit)
-    elif kind is OverKind.axis:
+        return map_figure(found, factor, label, ends[1], **look, unit=unit)
+    if kind is OverKind.axis:
         rows = np.linspace(values[0], values[-1], max(_ROWS, len(values)))
         along = family(design, name, rows)
         _say_lost(along, label, factor)
-        figure = parameter_figure(rows * factor, along.modes(parse_speeds(at, "--at")[:1]), label, **look, limit=limit)
-    else:
-        some = family(design, name, values)
-        _say_lost(some, label, factor)
-        figure = _family(some, np.linspace(*ends, _FINE), label, factor, look, unit, limit)
-    deliver_figure(figure, output)
+        return parameter_figure(rows * factor, along.modes(parse_speeds(at, "--at")[:1]), label, **look, limit=limit)
+    some = family(design, name, values)
+    _say_lost(some, label, factor)
+    return _family(some, np.linspace(*ends, _FINE), label, factor, look, unit, limit)
 
 
 def _ends(text: str) -> tuple[float, float]:
