@@ -10,7 +10,7 @@ it: eigenvalues, named modes, critical speeds.
 import matplotlib.pyplot as plt
 import numpy as np
 
-from singletrack import CoefficientMatrices, coefficients, load_bicycle
+from singletrack import coefficients, load_bicycle
 from singletrack.control import closed_loop, lqr_schedule
 
 # %%
@@ -19,8 +19,7 @@ from singletrack.control import closed_loop, lqr_schedule
 
 bare = coefficients(load_bicycle("kooijman-2008"))
 helped = {
-    gain: CoefficientMatrices.of(closed_loop(bare, {("steer torque", "lean rate"): [6.0 * gain, -gain]}))
-    for gain in (0.0, 2.0, 4.0, 8.0)
+    gain: closed_loop(bare, {("steer torque", "lean rate"): [6.0 * gain, -gain]}) for gain in (0.0, 2.0, 4.0, 8.0)
 }
 for gain, model in helped.items():
     ranges = ", ".join(f"{low:.2f} to {high:.2f}" for low, high in model.critical_speeds().stable_ranges)

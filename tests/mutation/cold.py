@@ -54,10 +54,11 @@ def main(folder: Path, arguments: list[str]) -> None:
     mutants = json.loads((folder / "mutants.json").read_text())
     sound: dict[str, bool] = {}  # tests that pass by themselves where nothing is changed
     left = [json.loads(line) for line in (folder / "warm.jsonl").read_text().splitlines()]
-    with (folder / "cold.jsonl").open("w") as results:
-        for one in left:
-            if one["state"] not in {"open", "imported"}:
-                continue
+    known = folder / "cold.jsonl"
+    done = known.read_text().rpartition("\n")[0].splitlines() if known.exists() else []
+    with known.open("w") as results:
+        results.write("".join(f"{line}\n" for line in done))
+        for one in [one for one in left if one["state"] in {"open", "imported"}][len(done) :]:
             mutant = mutants[one["number"]]
             names = quickest(covering(lines, mutant) - left_out, seconds)
             started = time.perf_counter()

@@ -75,7 +75,12 @@ def judge(package: str, options: argparse.Namespace) -> str:
         wanted = [Place(**place) for place in json.loads((folder / "survivors.json").read_text())]
     else:
         wanted = drawn(every, options.sample, options.seed)
-    (folder / "mutants.json").write_text(json.dumps([mutant(copy, place) for place in wanted]))
+    described = json.dumps([mutant(copy, place) for place in wanted])
+    known = folder / "mutants.json"
+    if not known.exists() or known.read_text() != described:  # else an interrupted run of the same goes on
+        for name in ("warm.jsonl", "cold.jsonl"):
+            (folder / name).unlink(missing_ok=True)
+    known.write_text(described)
     shutil.rmtree(folder / "numba", ignore_errors=True)
     python = Python(options.python, copy, folder)
     if options.coverage:
@@ -86,6 +91,7 @@ def judge(package: str, options: argparse.Namespace) -> str:
     python(str(HERE / "cold.py"), str(folder))
     text = table(package, folder, len(every), options.seed)
     output.write_text(text)
+    known.unlink()  # done: the same again starts anew
     return text
 
 

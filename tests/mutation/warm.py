@@ -50,8 +50,13 @@ def pytest_runtestloop(session: pytest.Session) -> bool:
     living = _living()
     sound: dict[str, bool] = {}  # tests that pass by themselves, in a fork, where nothing is changed
     gc.freeze()
-    with (folder / "warm.jsonl").open("w") as results:
+    known = folder / "warm.jsonl"  # of a run that was interrupted: the last may not be whole
+    done = known.read_text().rpartition("\n")[0].splitlines() if known.exists() else []
+    with known.open("w") as results:
+        results.write("".join(f"{line}\n" for line in done))
         for number, mutant in enumerate(json.loads((folder / "mutants.json").read_text())):
+            if number < len(done):
+                continue
             chosen = quickest(covering(lines, mutant) - set(left_out), seconds)
             started = time.perf_counter()
             result = _judge(mutant, [items[name] for name in chosen if name in items], living, seconds)

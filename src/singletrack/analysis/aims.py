@@ -9,6 +9,7 @@ import numpy as np
 
 from singletrack.errors import InputError
 from singletrack.linear import critical_speeds, eigenvalues
+from singletrack.linear.eigenvalues import checked_speeds
 from singletrack.model import LinearModel
 
 if TYPE_CHECKING:
@@ -49,6 +50,7 @@ class StableBetween:
     def __post_init__(self) -> None:
         if not 0 <= self.low < self.high:
             raise InputError(f"stable from {self.low:g} to {self.high:g} m/s: must be from less to more, not negative")
+        checked_speeds(self.high)
 
     @property
     def name(self) -> str:
@@ -74,6 +76,9 @@ class WidestRange:
     """The widest range of stable speeds below ``top`` in m/s: minus its width; without any, the least growth."""
 
     top: float = 12.0
+
+    def __post_init__(self) -> None:
+        checked_speeds(self.top)
 
     @property
     def name(self) -> str:

@@ -11,6 +11,7 @@ import scipy.linalg
 from singletrack.control.effort import PUSH, Weights, feedback_gain
 from singletrack.errors import InputError, unknown_name
 from singletrack.linear import state_space
+from singletrack.linear.eigenvalues import checked_speeds
 
 if TYPE_CHECKING:
     from singletrack.analysis.derivatives import Derivatives
@@ -24,6 +25,9 @@ class LeastEffort:
 
     speeds: tuple[float, ...]
     input_name: str = "steer torque"
+
+    def __post_init__(self) -> None:
+        checked_speeds(self.speeds)
 
     @property
     def name(self) -> str:

@@ -11,6 +11,7 @@ import numpy as np
 from singletrack.analysis.aims import Aim
 from singletrack.analysis.designs import Design
 from singletrack.errors import InputError
+from singletrack.parameters.description import BOUNDS
 
 __all__ = ["Found", "Keep", "Problem"]
 
@@ -55,9 +56,11 @@ class Problem:
         if not self.bounds:
             raise InputError("design: no parameter may change; give at least one with its bounds")
         for name, (low, high) in self.bounds.items():
-            self.design.unit(name)
+            most = BOUNDS.get(self.design.unit(name), (0.0, 1e6))[1]
             if not (np.isfinite([low, high]).all() and low < high):
                 raise InputError(f"bounds of {name}: found {low:g} to {high:g}, must be finite, from less to more")
+            if max(abs(low), abs(high)) > most:
+                raise InputError(f"bounds of {name}: found {low:g} to {high:g}, must be from -{most:g} to {most:g}")
 
     @property
     def names(self) -> tuple[str, ...]:

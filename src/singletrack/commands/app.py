@@ -31,6 +31,10 @@ EXIT_CODES = {
 }
 
 
+#: For Matplotlib's warning of each such character, which names places in our code.
+_NO_GLYPH = "a name or a title has characters that the figure's font lacks; they are drawn as boxes"
+
+
 class _Terminated(BaseException):
     """The system asks the program to end."""
 
@@ -142,11 +146,12 @@ def _warnings_said() -> Iterator[None]:
     said: set[str] = set()
 
     def show(message: Warning | str, category: type[Warning], *place: object) -> None:
-        if not issubclass(category, OddityWarning):
+        text = _NO_GLYPH if category is UserWarning and str(message).startswith("Glyph ") else str(message)
+        if not issubclass(category, OddityWarning) and text is not _NO_GLYPH:
             usual(message, category, *place)  # type: ignore[arg-type]
-        elif str(message) not in said:
-            said.add(str(message))
-            _said(f"warning: {message}", 0)
+        elif text not in said:
+            said.add(text)
+            _said(f"warning: {text}", 0)
 
     with warnings.catch_warnings():
         usual = warnings.showwarning

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import io
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -21,6 +20,7 @@ from singletrack.files.signals import read_signal
 from singletrack.files.source import read_text
 from singletrack.output import check_writable
 from singletrack.present.riding import animation_bytes, ride_figure
+from singletrack.present.style import figure_bytes
 from singletrack.present.tables import write_csv
 from singletrack.present.terminal import Terminal
 from singletrack.public import warn_of_oddities
@@ -100,14 +100,12 @@ def _write(found: Ride, title: str, output: Path | None, plot: Path | None, anim
     if output is not None:
         deliver(_csv(found) if output.suffix.lower() == ".csv" else _netcdf(found, title), output)
     if plot is not None:
-        content = io.BytesIO()
         time, lean, steer = (
             found.data.time.to_numpy(),
             *(np.degrees(found.coordinate(name)) for name in ("lean", "steer")),
         )
         figure = ride_figure(time, lean, steer, _path(found), title, found.end)
-        figure.savefig(content, format=plot.suffix.lower().removeprefix("."))
-        deliver(content.getvalue(), plot)
+        deliver(figure_bytes(figure, plot.suffix.lower().removeprefix(".")), plot)
     if animate is not None:
         deliver(_animation(found, title, animate.suffix.lower()), animate)
 

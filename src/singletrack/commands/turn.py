@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import io
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -17,6 +16,7 @@ from singletrack.commands.printing import deliver, print_json, show
 from singletrack.commands.sheets import bicycle_named
 from singletrack.errors import InputError
 from singletrack.parameters.units import parse_quantity
+from singletrack.present.style import figure_bytes
 from singletrack.present.turning import turn_figure, turn_text
 from singletrack.public import warn_of_oddities
 from singletrack.public.turning import turn, turn_family
@@ -93,7 +93,7 @@ def _text(found: Turn) -> str:
         ("steer", np.degrees(found.steer), "deg"),
         ("hand torque", found.hand_torque, "N m"),
         ("path speed", found.path_speed, "m/s"),
-        ("path radius", found.radius, "m"),
+        *([("path radius", found.radius, "m")] if np.isfinite(found.radius) else []),  # straight ahead: none
         ("lateral acceleration", found.lateral_acceleration, "m/s²"),
         ("yaw rate", found.yaw_rate, "rad/s"),
         ("friction demanded", found.friction, ""),
@@ -109,6 +109,4 @@ def _text(found: Turn) -> str:
 def _drawn(family: TurnFamily, title: str, plot: Path) -> bytes:
     lean = np.degrees([each.lean for each in family.turns])
     figure = turn_figure(lean, family.names, family.eigenvalues, title, family.end)
-    content = io.BytesIO()
-    figure.savefig(content, format=plot.suffix.lower().removeprefix("."))
-    return content.getvalue()
+    return figure_bytes(figure, plot.suffix.lower().removeprefix("."))

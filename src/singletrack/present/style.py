@@ -6,6 +6,8 @@ import io
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
+from singletrack.present.readable import printable
+
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
@@ -106,8 +108,13 @@ def figure_bytes(figure: Figure, kind: str, dots: float | None = None) -> bytes:
     dots : float, optional
         Per inch, of a png.
     """
+    from matplotlib.text import Text  # lazy: heavy
+
     content = io.BytesIO()
     with style():
+        for text in figure.findobj(Text):  # an svg with a control character in it is none
+            if (shown := printable(text.get_text())) != text.get_text():
+                text.set_text(shown)
         engine = figure.get_layout_engine()
         if engine is not None:
             engine.execute(figure)

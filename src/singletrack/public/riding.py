@@ -15,6 +15,7 @@ from singletrack.multibody.engine.inputs import Sampled
 from singletrack.multibody.engine.model import Model
 from singletrack.multibody.engine.simulate import simulate
 from singletrack.posture import require_records
+from singletrack.public.bounds import within
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -113,7 +114,7 @@ def ride_for(
     Raises
     ------
     InputError
-        For a duration or speed that is not allowed.
+        For a number that is not allowed.
 
     Examples
     --------
@@ -135,6 +136,7 @@ def ride_for(
         raise InputError(f"duration: {duration!r} s; allowed: above zero")
     if not np.isfinite(speed):
         raise InputError(f"speed: {speed!r} m/s; allowed: a finite number")
+    within(speed=speed, duration=duration, push=push, lean=lean)
     model = bicycle_model(bicycle, rider, options)
     start = ride(model, speed, {"lean": lean}, {"lean": push})
     given: dict[str, Any] = {} if torque is None else {"steer torque": Sampled(*torque)}

@@ -16,6 +16,7 @@ from singletrack.multibody.bicycle.model import bicycle_model
 from singletrack.multibody.bicycle.turning import circle, held_turn, held_turns, turn_eigenvalues
 from singletrack.multibody.engine.dynamics import loop_forces, wheel_forces
 from singletrack.posture import require_records
+from singletrack.public.bounds import within
 
 if TYPE_CHECKING:
     from singletrack.multibody.engine.equilibrium import SteadyMotion
@@ -166,6 +167,7 @@ def turn(
     (17.9, -0.29)
     """
     require_records(bicycle, rider)
+    within(speed=speed, lean=lean, radius=radius)
     model = bicycle_model(bicycle, rider, options)
     sought = held_turn(model, speed, lean=lean, radius=radius)
     way = sought.state["lean"]
@@ -209,6 +211,7 @@ def turn_family(
     'left hand at the end of its reach'
     """
     require_records(bicycle, rider)
+    within(speed=speed)
     model = bicycle_model(bicycle, rider, options)
     names, values = _straight(bicycle, rider, options, speed)
     family = held_turns(model, speed, right=right)
