@@ -102,7 +102,11 @@ html_theme_options = {
     "show_toc_level": 2,
     "footer_start": ["copyright"],
     "footer_end": [],
-    "secondary_sidebar_items": ["page-toc"],
+    # The pages of the gallery give the room beside them to pictures and code.
+    "secondary_sidebar_items": {
+        "**": ["page-toc"],
+        **{f"auto_gallery/{path.stem}": [] for path in HERE.glob("gallery/*.py")},
+    },
 }
 
 # One script that has its letters within: nothing else is loaded for formulas.

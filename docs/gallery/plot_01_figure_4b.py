@@ -39,7 +39,7 @@ for name, model in {"hands free": free, "hands on the bar": held}.items():
 # speed is needed; the more negative stiffness, with which a bar that is turned turns further, holds off capsize.
 
 speeds = np.linspace(0.0, 10.0, 401)
-figure, axes = plt.subplots(1, 2, figsize=(10.5, 4.4), layout="constrained")
+figure, axes = plt.subplots(1, 2, figsize=(9.0, 4.2), layout="constrained")
 for ax, model, title in zip(axes, (free, held), ("(a) rigid rider, hands free", "(b) hands on the bar"), strict=True):
     draw_eigenvalues(ax, model.modes(speeds), model.critical_speeds())
     ax.set_title(title, loc="left", fontsize=11)

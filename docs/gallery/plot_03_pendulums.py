@@ -93,7 +93,7 @@ print(f"{len(names)} parameters, {np.mean(abs(off) < 2):.0%} within two standard
 # inertia that is a small difference of large numbers, such as the frame's about y (a swing, less m l²), has a large
 # deviation of its own, and is no worse on this scale.
 
-figure, (hanging, apart) = plt.subplots(1, 2, figsize=(10.5, 5.0), layout="constrained")
+figure, (hanging, apart) = plt.subplots(1, 2, figsize=(9.0, 4.8), layout="constrained")
 for end, colour in (("rear_frame", "#0072B2"), ("front_frame", "#D55E00")):
     x, z = (getattr(found.bicycle, f"{end}_{axis}") for axis in "xz")
     for s, c, d in found.lines[end]:

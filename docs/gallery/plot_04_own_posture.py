@@ -46,7 +46,7 @@ print(f"no waist:               fastest growth at 6 m/s {without[at_6]:.3f} 1/s"
 # Right, the motion that the waist brings, torso against bar: one hertz with a slack back, faster with a stiff one, and
 # hardly dependent on how fast one rides.
 
-figure, (left, right) = plt.subplots(1, 2, figsize=(9.5, 4.2), layout="constrained")
+figure, (left, right) = plt.subplots(1, 2, figsize=(8.2, 3.9), layout="constrained")
 for curve, stiffness, colour in zip(
     growth, stiffnesses, plt.colormaps["cividis"](np.linspace(0.85, 0.0, len(stiffnesses))), strict=True
 ):

@@ -53,7 +53,7 @@ for name, one in designs.items():
 # of the torso here; a rider who follows the grips needs another cure (see the page on design tools).
 
 speeds = np.linspace(0.0, 12.0, 241)
-figure, (drawing, curves) = plt.subplots(1, 2, figsize=(10.5, 4.4), layout="constrained", width_ratios=[1, 1.15])
+figure, (drawing, curves) = plt.subplots(1, 2, figsize=(9.0, 4.2), layout="constrained", width_ratios=[1, 1.15])
 looks = dict(zip(designs, [("#000000", "-"), ("#D55E00", "--"), ("#0072B2", "-.")], strict=True))
 for name, one in designs.items():
     colour, dashes = looks[name]

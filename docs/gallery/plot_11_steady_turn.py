@@ -34,7 +34,7 @@ for speed, family in families.items():
 # On the way there the limit is the road: the friction that the tyres must give (right) passes 0.8, dry asphalt, at 36
 # degrees of lean at 5 m/s. Below a friction of 0.3, a wet road, no turn leans more than some 16 degrees.
 
-figure, (torque, friction) = plt.subplots(1, 2, figsize=(9.5, 4.2), layout="constrained")
+figure, (torque, friction) = plt.subplots(1, 2, figsize=(8.2, 3.9), layout="constrained")
 looks = [("#0072B2", "-"), ("#D55E00", "--"), ("#009E73", "-.")]
 for (speed, family), (colour, dashes) in zip(families.items(), looks, strict=True):
     lean = np.degrees([one.lean for one in family.turns])

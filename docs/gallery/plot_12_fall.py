@@ -44,7 +44,7 @@ def seen(points):
 
 
 colours = {"wheel": "#000000", "frame": "#555555", "front": "#CC79A7", "rider": "#D55E00"}
-figure, axes = plt.subplot_mosaic("aa;bc", figsize=(9.5, 5.6), layout="constrained", height_ratios=[0.95, 1.0])
+figure, axes = plt.subplot_mosaic("aa;bc", figsize=(8.2, 5.0), layout="constrained", height_ratios=[0.95, 1.0])
 places = still.places()
 for frame, time in enumerate(np.linspace(0.0, still.end_time - 0.01, 6)):
     index = int(np.argmin(abs(still.data.time.to_numpy() - time)))

@@ -58,7 +58,7 @@ knee = along(1.0, crank)
 end = knee + along(3.0, crank + coupler)
 middle = knee + along(1.5, crank + coupler)
 support = np.array([3.5, 0.0])
-figure, (machine, over_time) = plt.subplots(1, 2, figsize=(10.0, 4.2), layout="constrained", width_ratios=[1.2, 1.0])
+figure, (machine, over_time) = plt.subplots(1, 2, figsize=(8.6, 4.0), layout="constrained", width_ratios=[1.2, 1.0])
 turn = int(np.argmax(abs(crank - crank[0]) > 2 * np.pi))
 for index in np.linspace(0, turn, 12, endpoint=False).astype(int):
     points = np.stack([np.zeros(2), knee[index], end[index], support])

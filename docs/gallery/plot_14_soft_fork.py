@@ -50,7 +50,7 @@ for (stiffness, posture), found in cases.items():
 # A fork of 2 kN m/rad is too soft for hands that only hold: they put the speed at which the wobble begins to grow from
 # 2 m/s up to 3, and no more.
 
-figure, (growth, frequency) = plt.subplots(1, 2, figsize=(9.5, 4.2), layout="constrained", sharex=True)
+figure, (growth, frequency) = plt.subplots(1, 2, figsize=(8.2, 3.9), layout="constrained", sharex=True)
 colours = {20: "#000000", 5: "#D55E00", 2: "#0072B2"}
 for (stiffness, posture), found in cases.items():
     dashes = "-" if posture == "rigid" else "--"

@@ -58,7 +58,7 @@ made = np.histogram2d(elbows[told], head_angles[told], bins)[0]
 good = np.histogram2d(elbows[stable], head_angles[stable], bins)[0]
 share = np.divide(good, made, out=np.full_like(made, np.nan), where=made > 20)
 
-figure, (map_, count) = plt.subplots(1, 2, figsize=(10.0, 4.4), layout="constrained", width_ratios=[1.25, 1.0])
+figure, (map_, count) = plt.subplots(1, 2, figsize=(8.6, 4.1), layout="constrained", width_ratios=[1.25, 1.0])
 mesh = map_.pcolormesh(*bins, 100 * share.T, cmap="cividis", vmin=0, vmax=100, rasterized=True)
 figure.colorbar(mesh, ax=map_, label="stable at some speed (%)")
 map_.set(xlabel="bend of the elbows (deg; 180: stretched)", ylabel="head angle (deg)")

@@ -34,14 +34,14 @@ for name, guess in guesses.items():
 # What is seen
 # ------------
 # Left, what the sheet alone knows of the speed from which the bicycle is stable under a rider with free hands: 5.3 m/s,
-# give or take a quarter. That is what the twenty-five parameters, most of them guessed, come to. Right, how uncertain
-# single parameters are, in per cent; three minutes with a kitchen scale take a third off the inertias, and a tenth off
-# the weave speed's spread.
+# give or take 0.3. That is what the twenty-five parameters, most of them guessed, come to. Right, how uncertain single
+# parameters are, in per cent; three minutes with a kitchen scale take a third off the inertias, and some of it off
+# the speed.
 #
 # For the measured Stratos and Browser all parameters estimated this way are within two of their standard deviations;
 # how it fares on other bicycles, and where it fails, stands in the how-to.
 
-figure, (speeds, spreads) = plt.subplots(1, 2, figsize=(10.0, 4.2), layout="constrained")
+figure, (speeds, spreads) = plt.subplots(1, 2, figsize=(8.6, 4.0), layout="constrained")
 looks = {"sheet alone": ("#D55E00", "--"), "and kitchen scale": ("#0072B2", "-")}
 for name, (colour, dashes) in looks.items():
     speeds.hist(weave[name], np.linspace(4.5, 6.5, 41), histtype="step", color=colour, ls=dashes, lw=1.8, label=name)

@@ -36,7 +36,7 @@ for measure in found.measures:
 # One of them is stable and needs a fast rider, the other never is and forgives a slow one.
 
 speeds = np.linspace(0.0, 10.0, 401)
-figure, axes = plt.subplot_mosaic("ab;ac", figsize=(10.0, 5.4), layout="constrained", height_ratios=[1.5, 1.0])
+figure, axes = plt.subplot_mosaic("ab;ac", figsize=(8.6, 5.0), layout="constrained", height_ratios=[1.5, 1.0])
 looks = [("#0072B2", "-"), ("#D55E00", "--")]
 for (name, (_, posture)), (colour, dashes) in zip(pairs.items(), looks, strict=True):
     shape = outline(bicycles[name], rider.on(bicycles[name]))

@@ -47,7 +47,7 @@ print(f"found {found.eigenvalue:.3f} 1/s, {low:.3f} to {high:.3f} for its real p
 # their scatter; so does the weave speed, which nothing in the model was fitted to. That is the experiment by which the
 # model of Whipple, a hundred and nine years old then, came to be trusted.
 
-figure, (record, compared) = plt.subplots(1, 2, figsize=(10.5, 4.4), layout="constrained")
+figure, (record, compared) = plt.subplots(1, 2, figsize=(9.0, 4.2), layout="constrained")
 used = time >= found.start
 root = found.eigenvalue
 shapes = np.exp(root.real * time[used])[:, None] * np.stack(

@@ -44,7 +44,7 @@ print("best gains at 3 m/s, from lean, steer, lean rate, steer rate:", (-best[40
 # Right, what the best linear controller would do: torque mostly by lean and lean rate, steeply less with speed. It has
 # to know all four; the law with one gain makes do with one gyroscope.
 
-figure, (growth, gains) = plt.subplots(1, 2, figsize=(9.5, 4.2), layout="constrained")
+figure, (growth, gains) = plt.subplots(1, 2, figsize=(8.2, 3.9), layout="constrained")
 looks = zip(helped.items(), ["#000000", "#0072B2", "#009E73", "#D55E00"], ["-", "--", "-.", ":"], strict=True)
 for (gain, model), colour, dashes in looks:
     fastest = model.eigenvalues(speeds).real.max(axis=-1)

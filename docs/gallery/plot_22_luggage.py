@@ -49,7 +49,7 @@ print(f"{axis:.2f} m forward of the rear contact")
 # stable speed left. Further ahead the range is wide, and begins ever later, over the front hub at 7 m/s. A basket
 # belongs close to the steer axis or, better, on the frame.
 
-figure, axes = plt.subplots(1, 2, figsize=(10.0, 4.4), layout="constrained", sharey=True)
+figure, axes = plt.subplots(1, 2, figsize=(8.6, 4.1), layout="constrained", sharey=True)
 for ax, (on, found) in zip(axes, ranges.items(), strict=True):
     ax.fill_between(places, *found.T, color="#DDEFD9")
     ax.plot(places, found[:, 0], color="#0072B2", lw=1.8, label="stable from")

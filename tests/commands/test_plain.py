@@ -82,7 +82,11 @@ MODULES = {
     ("template", "bicycle"): (320, 68, {"typer", "rich", "pydantic"}),
     ("schema", "rider"): (320, 68, {"typer", "rich", "pydantic"}),
     ("convert", "browser", "OUT"): (430, 83, {"pydantic"}),
-    ("coefficients", "browser", "--rider", "rider-a", "--posture", "upright"): (580, 130, {"singletrack.linear"}),
+    ("coefficients", "browser", "--rider", "rider-a", "--posture", "upright"): (
+        520,
+        132,
+        {"singletrack.linear", "pydantic"},
+    ),
 }
 HEAVY = {"scipy", "matplotlib", "pint", "casadi", "xarray", "control", "yaml", "jinja2", "jax", "numba"}
 

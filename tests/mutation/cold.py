@@ -58,7 +58,7 @@ def main(folder: Path, arguments: list[str]) -> None:
     done = known.read_text().rpartition("\n")[0].splitlines() if known.exists() else []
     with known.open("w") as results:
         results.write("".join(f"{line}\n" for line in done))
-        for one in [one for one in left if one["state"] in {"open", "imported"}][len(done) :]:
+        for one in [one for one in left if one["state"] in {"open", "imported", "unseen"}][len(done) :]:
             mutant = mutants[one["number"]]
             names = quickest(covering(lines, mutant) - left_out, seconds)
             started = time.perf_counter()

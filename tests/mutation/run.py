@@ -51,6 +51,7 @@ def main() -> None:
     parser.add_argument("--module", default="", help="only files whose path has this in it")
     parser.add_argument("--coverage", nargs="*", default=[], help="records with contexts that were made before")
     parser.add_argument("--again", action="store_true", help="only the survivors of the last run")
+    parser.add_argument("--warm", action="store_true", help="leave open what needs everything imported anew")
     parser.add_argument("packages", nargs="+", choices=sorted(TESTS))
     options = parser.parse_args()
     for package in options.packages:
@@ -88,7 +89,8 @@ def judge(package: str, options: argparse.Namespace) -> str:
     else:
         record(python, package, folder)
     python("-m", "pytest", *QUIET, "-s", "-p", "warm", *TESTS[package].split())
-    python(str(HERE / "cold.py"), str(folder))
+    if not options.warm:
+        python(str(HERE / "cold.py"), str(folder))
     text = table(package, folder, len(every), options.seed)
     output.write_text(text)
     known.unlink()  # done: the same again starts anew
@@ -124,7 +126,8 @@ def record(python: Python, package: str, folder: Path) -> None:
     if known.exists() and (folder / "coverage").exists() and known.read_text() == mark.hexdigest():
         return
     python.environment["COVERAGE_FILE"] = str(folder / "coverage")
-    (folder / "coverage").unlink(missing_ok=True)
+    for name in ("coverage", "seconds.json"):
+        (folder / name).unlink(missing_ok=True)
     settings = folder / "coverage.toml"
     source = python.copy / "src" / "singletrack" / package
     settings.write_text(f'[tool.coverage.run]\nsource = ["{source}"]\n')
@@ -138,6 +141,8 @@ def table(package: str, folder: Path, total: int, seed: int) -> str:
     mutants = json.loads((folder / "mutants.json").read_text())
     states: dict[int, dict[str, Any]] = {}
     for name in ("warm.jsonl", "cold.jsonl"):
+        if not (folder / name).exists():
+            continue
         for line in (folder / name).read_text().splitlines():
             one = json.loads(line)
             one["took"] += states.get(one["number"], {"took": 0.0})["took"]

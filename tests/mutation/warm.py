@@ -42,10 +42,10 @@ def pytest_runtestloop(session: pytest.Session) -> bool:
     for item in session.items:
         _hurry(item)
     lines = tests_of_lines()
-    touching = {test for by_line in lines.values() for tests in by_line.values() for test in tests}
-    seconds = forked(lambda: _times([item for name, item in items.items() if name in touching]))
+    if not (folder / "seconds.json").exists():
+        (folder / "seconds.json").write_text(json.dumps(forked(lambda: _times(touched(items, lines)))))
+    seconds = json.loads((folder / "seconds.json").read_text())
     left_out = [name for name, value in seconds.items() if value < 0 or value > LONGEST]
-    (folder / "seconds.json").write_text(json.dumps(seconds))
     (folder / "left_out.json").write_text(json.dumps(left_out))
     living = _living()
     sound: dict[str, bool] = {}  # tests that pass by themselves, in a fork, where nothing is changed
@@ -70,6 +70,12 @@ def pytest_runtestloop(session: pytest.Session) -> bool:
             results.write(json.dumps(result) + "\n")
             results.flush()
     return True
+
+
+def touched(items: dict[str, pytest.Item], lines: dict[str, dict[int, set[str]]]) -> list[pytest.Item]:
+    """Return the tests that run any line of the package."""
+    touching = {test for by_line in lines.values() for tests in by_line.values() for test in tests}
+    return [item for name, item in items.items() if name in touching]
 
 
 def tests_of_lines() -> dict[str, dict[int, set[str]]]:

@@ -11,6 +11,8 @@ import pytest
 from chromium import needs_chromium, start_chromium
 from singletrack import coefficients, load_bicycle, load_rider, page
 from singletrack.errors import SingletrackError
+from singletrack.parameters import Bicycle
+from singletrack.webpage.sheets import page_sheets
 
 pytestmark = needs_chromium
 
@@ -132,6 +134,134 @@ def test_a_thousand_designs_have_pythons_numbers(browser):
         np.testing.assert_allclose(np.ravel(ranges), np.ravel(critical.stable_ranges), rtol=1e-6)
         compared += 1
     assert compared > 500
+
+
+def test_springs_and_dampers_have_pythons_numbers(browser):
+    """At the torso's hinge and at the steer, with a torso that leans and without."""
+    random = np.random.default_rng(3)
+    ways = [("leaned", "stratos", True), ("rigid", "stratos", True), ("upright", "browser", True)]
+    for posture, name, torso in [*ways, ("upright", "browser", False)]:
+        joints = ["steer", "torso lean"] if torso else ["steer"]
+        for _ in range(8):
+            springs = {joint: float(random.uniform(0, 900 if joint == "torso lean" else 20)) for joint in joints}
+            dampers = {joint: float(random.uniform(0, 60 if joint == "torso lean" else 3)) for joint in joints}
+            changes = {f"spring at {joint}": value for joint, value in springs.items()}
+            changes |= {f"damper at {joint}": value for joint, value in dampers.items()}
+            base = {"bicycle": name, "rider": "rider-a", "posture": posture, "torso_lean": torso, "speed": 4.5}
+            found = ask(browser, [base, changes])
+            assert found["message"] == ""
+            bicycle, options = load_bicycle(name), {"torso_lean": torso, "springs": springs, "dampers": dampers}
+            rider = load_rider("rider-a").on(bicycle)
+            model = coefficients(bicycle, rider, posture, **options)
+            for matrix in ("M", "C0", "C1", "S0", "K0", "K2"):
+                expected = np.asarray(getattr(model, matrix))
+                np.testing.assert_allclose(found[matrix], expected, atol=1e-10 * (1 + np.abs(expected).max()))
+            modes = model.modes(4.5)
+            roots = np.array([complex(*root) for root in found["eigenvalues"]])
+            np.testing.assert_allclose(roots, modes.eigenvalues[0], atol=1e-8 * (1 + np.abs(roots).max()))
+            assert found["modes"] == list(modes.names)
+            ranges = [[low, np.inf if high is None else high] for low, high in found["stable_ranges"]]
+            np.testing.assert_allclose(np.ravel(ranges), np.ravel(model.critical_speeds().stable_ranges), rtol=1e-6)
+
+
+def test_a_negative_spring_is_refused(browser):
+    base = {"bicycle": "stratos", "rider": "rider-a", "posture": "leaned", "torso_lean": True}
+    found = ask(browser, [base, {"spring at torso lean": -5}])
+    assert "spring at torso lean = -5" in found["message"]
+
+
+def random_sheets(count, seed):
+    """Yield kinds of handlebar and entries around what the page's sheets begin at."""
+    random = np.random.default_rng(seed)
+    for k in range(count):
+        sheet = page_sheets()[k % len(page_sheets())]
+        names = random.choice(list(sheet.inputs), size=8, replace=False)
+        yield sheet, {str(n): float(sheet.inputs[n] * (1 + random.uniform(-0.04, 0.04))) for n in names}
+
+
+def test_sheets_make_pythons_bicycles(browser):
+    """All parameters to 1e-12, and the matrices with a rider on it."""
+    rider = load_rider("rider-a").replace(forward_lean_angle=np.radians(78.0))
+    seen = 0
+    for sheet, entries in random_sheets(24, seed=5):
+        browser.execute_script("window.singletrack.set({rider: ''})")
+        base = {"bar": sheet.bar, **{f"sheet.{name}": value for name, value in entries.items()}}
+        found = ask(browser, [{"rider": ""}, base])
+        assert found["message"] == ""
+        made = sheet.expected.parameters({**sheet.inputs, **entries})
+        expected = {name: float(made[name]) for name in sheet.outputs}
+        own = {name: value for name, value in found["parameters"].items() if name in expected}
+        assert own == pytest.approx(expected, abs=1e-12)
+        model = coefficients(Bicycle(**expected))
+        np.testing.assert_allclose(found["M"], model.M, atol=1e-10)
+        np.testing.assert_allclose(found["K0"], model.K0, atol=1e-9)
+        arms = {"upper_arm_length": 0.34, "lower_arm_length": 0.36, "upper_leg_length": 0.5, "lower_leg_length": 0.5}
+        seated = {"rider": "rider-a", "posture": "leaned", "arms": "straight", "torso_lean": False}
+        seated |= {"forward_lean_angle": np.radians(65.0), **arms}
+        found = json.loads(
+            browser.execute_script(
+                "window.singletrack.set(arguments[0]); return JSON.stringify(window.singletrack.result())", seated
+            )
+        )
+        if found["message"]:
+            assert "too short" in found["message"]
+            continue
+        seen += 1
+        person = rider.replace(forward_lean_angle=np.radians(65.0), **arms)
+        model = coefficients(Bicycle(**expected), person, "leaned")
+        np.testing.assert_allclose(found["M"], model.M, atol=1e-9)
+        np.testing.assert_allclose(found["K0"], model.K0, atol=1e-8)
+    assert seen > 8
+
+
+def test_the_form_of_a_sheet_answers_and_its_address_brings_it_back(browser):
+    browser.execute_script("window.singletrack.set({rider: ''})")
+    ask(browser, [{"bicycle": "browser"}])
+    script = """
+      const type = (id, text) => {
+        const field = document.getElementById(id);
+        field.value = text;
+        field.dispatchEvent(new Event("change"));
+      };
+      type("sheet-bar", "drop");
+      type("sheet-head_angle", "71.5");
+      type("sheet-chain_stay_length", "430");
+      type("sheet-front-tyre", "32-622");
+      return JSON.stringify(window.singletrack.result());
+    """
+    found = json.loads(browser.execute_script(script))
+    sheet = next(sheet for sheet in page_sheets() if sheet.bar == "drop")
+    entries = {"head_angle": np.radians(71.5), "chain_stay_length": 0.43, "front tyre width": 0.032}
+    made = sheet.expected.parameters({**sheet.inputs, **entries})
+    expected = {name: float(made[name]) for name in sheet.outputs}
+    assert {n: found["parameters"][n] for n in expected} == pytest.approx(expected, abs=1e-12)
+    assert browser.execute_script("return document.getElementById('bicycle').value") == "geometry sheet"
+    address = browser.current_url
+    browser.execute_script("window.singletrack.undo()")
+    browser.get("about:blank")
+    browser.get(address)
+    again = json.loads(browser.execute_script("return JSON.stringify(window.singletrack.result())"))
+    assert again["parameters"] == found["parameters"]
+    browser.execute_script("document.getElementById('play').click()")
+
+
+def test_a_rider_whom_a_sheet_does_not_fit_is_put_aside(browser):
+    base = {"bicycle": "stratos", "rider": "rider-a", "posture": "leaned"}
+    found = ask(browser, [base, {"bar": "flat", "sheet.stem_length": 0.13, "sheet.stack": 0.55}])
+    assert "arms are too short" in found["message"]
+    assert "shown without rider" in found["message"]
+    shown = [browser.execute_script(f"return document.getElementById('{name}').value") for name in ("bicycle", "rider")]
+    assert shown == ["geometry sheet", ""]
+
+
+def test_a_sheet_that_makes_no_frame_is_said_and_the_last_design_stays(browser):
+    before = ask(browser, [{"rider": ""}, {"bar": "city"}])
+    found = ask(browser, [{"rider": ""}, {"bar": "city"}, {"sheet.chain_stay_length": 0.03}])
+    assert "lengths do not meet" in found["message"]
+    assert found["parameters"] == before["parameters"]
+    script = "const f = document.getElementById('sheet-front-tyre'); f.value = 'wide';"
+    script += "f.dispatchEvent(new Event('change')); return f.validationMessage"
+    assert browser.execute_script(script) == "width and bead diameter in mm, as 37-622"
 
 
 def test_every_control_answers(browser):

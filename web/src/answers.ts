@@ -6,10 +6,11 @@ import type { Complex } from "./complex";
 import { type CriticalSpeeds, criticalSpeeds } from "./critical";
 import { crossingsOf } from "./crossings";
 import { describe, type Values, type Variant } from "./data";
-import { type Design, faultOf, TOP_SPEED, valuesOf, variantOf } from "./design";
+import { bicycleOf, type Design, faultOf, springsOf, TOP_SPEED, valuesOf, variantOf } from "./design";
 import { equationsOf, inputsOf } from "./equations";
 import { FollowedModes } from "./followed";
 import { Modes } from "./modes";
+import { SHEET, sheetFault } from "./sheets";
 
 export interface Answer {
   design: Design;
@@ -26,7 +27,9 @@ export interface Answer {
 export function answer(design: Design): Answer | string {
   const variant = variantOf(design);
   const values = valuesOf(design);
-  const read = variant.reads.filter((name) => describe.has(name));
+  const open = design.bicycle === SHEET ? sheetFault(bicycleOf(design)) : "";
+  if (open) return open;
+  const read = [...variant.reads.filter((name) => describe.has(name)), ...springsOf(variant)];
   const fault = faultOf(values, read);
   if (fault) return fault;
   const { model, fault: reason } = equationsOf(variant, values);

@@ -29,6 +29,10 @@ export const SLIDERS: Slider[] = [
   { name: "upper_arm_length", label: "upper arm", low: 0.2, high: 0.4 },
   { name: "lower_arm_length", label: "lower arm and hand", low: 0.22, high: 0.45 },
   { name: "upper_leg_length", label: "upper leg", low: 0.3, high: 0.6 },
+  { name: "spring at torso lean", label: "torso spring", low: 0, high: 1500 },
+  { name: "damper at torso lean", label: "torso damper", low: 0, high: 150 },
+  { name: "spring at steer", label: "steer spring", low: 0, high: 30 },
+  { name: "damper at steer", label: "steer damper", low: 0, high: 5 },
 ];
 
 interface Row {
@@ -63,7 +67,7 @@ export class Controls {
     const number = document.createElement("input");
     const reset = document.createElement("button");
     label.textContent = `${slider.label} (${unit})`;
-    label.htmlFor = range.id = `slider-${slider.name}`;
+    label.htmlFor = range.id = `slider-${slider.name.replaceAll(" ", "-")}`;
     label.title = description.meaning;
     Object.assign(range, { type: "range", min: String(shownEnds[0]), max: String(shownEnds[1]), step: String(step) });
     Object.assign(number, { type: "number", step: String(step) });

@@ -7,7 +7,7 @@ export type Values = Record<string, number>;
 
 export interface Description {
   name: string;
-  of: "bicycle" | "rider";
+  of: "bicycle" | "rider" | "posture";
   unit: string;
   symbol: string;
   meaning: string;
@@ -39,6 +39,15 @@ export interface Variant {
   reads: string[];
 }
 
+/** A geometry sheet with one kind of handlebar: what its program reads and begins at, and what it writes. */
+export interface Sheet {
+  bar: string;
+  program: string;
+  inputs: { name: string; unit: string; meaning: string; value: number }[];
+  /** Names of the bicycle's parameters, in order. */
+  outputs: string[];
+}
+
 interface Given {
   bicycles: ParameterRecord[];
   riders: ParameterRecord[];
@@ -50,6 +59,7 @@ interface Given {
 export type Program = (inputs: ArrayLike<number>, outputs: Float64Array) => void;
 
 export const DESCRIPTIONS = manifest.parameters as Description[];
+export const SHEETS = manifest.sheets as Sheet[];
 export const VARIANTS = manifest.variants as Variant[];
 /** Share by which a principal moment may exceed the sum of the other two: room for measurement errors. */
 export const FLATNESS = manifest.flatness as number;

@@ -1,6 +1,7 @@
 /** A design: bicycle, rider, how the rider sits, speed, and what was changed. Plain data, compared and stored as such. */
 
-import { DESCRIPTIONS, describe, findVariant, FLATNESS, given, type ParameterRecord, type Values, type Variant, WORDS } from "./data";
+import { DESCRIPTIONS, describe, findVariant, FLATNESS, given, type ParameterRecord, SHEETS, type Values, type Variant, WORDS } from "./data";
+import { entriesOf, isEntry, PREFIX, SHEET, sheetRecord } from "./sheets";
 
 export interface Design {
   bicycle: string;
@@ -13,15 +14,19 @@ export interface Design {
   speed: number;
   /** Parameters that differ from those of the records, SI. */
   changes: Values;
+  /** Of the bicycle from a geometry sheet: kind of handlebar, entries that differ from what the sheet begins at, SI. */
+  bar: string;
+  sheet: Values;
 }
 
 export const TOP_SPEED = 10;
 const bicycles = new Map(given.bicycles.map((record) => [record.name, record]));
 const riders = new Map(given.riders.map((record) => [record.name, record]));
 
-export const bicycleNames = (): string[] => [...bicycles.keys()];
+export const bicycleNames = (): string[] => [...bicycles.keys(), SHEET];
 export const riderNames = (): string[] => [...riders.keys()];
-export const bicycleOf = (design: Design): ParameterRecord => bicycles.get(design.bicycle) as ParameterRecord;
+export const bicycleOf = (design: Design): ParameterRecord =>
+  bicycles.get(design.bicycle) ?? sheetRecord(design.bar, design.sheet);
 export const riderOf = (design: Design): ParameterRecord | undefined => riders.get(design.rider);
 
 /** Puts a record that was dropped onto the page among the others. */
@@ -34,7 +39,7 @@ export function firstDesign(): Design {
   return canSeat(design) ? design : { ...design, rider: "", posture: "rigid" };
 }
 
-const START: Design = { bicycle: "", rider: "", posture: "rigid", arms: "straight", torsoLean: false, speed: 5, changes: {} };
+const START: Design = { bicycle: "", rider: "", posture: "rigid", arms: "straight", torsoLean: false, speed: 5, changes: {}, bar: "city", sheet: {} };
 const GEOMETRY = DESCRIPTIONS.filter((d) => d.of === "bicycle" && d.group.startsWith("frame geometry"));
 
 /** Whether the bicycle has the frame geometry that a rider needs. */
@@ -49,14 +54,21 @@ export function variantOf(design: Design): Variant {
   return found ?? (findVariant(posture, design.arms, false) as Variant);
 }
 
+/** Names of the springs and dampers that a way to ride may have: at each freedom but lean. */
+export function springsOf(variant: Variant): string[] {
+  return variant.coordinates.flatMap((joint) => [`spring at ${joint}`, `damper at ${joint}`]).filter((name) => describe.has(name));
+}
+
 /** Every parameter of a design, SI. */
 export function valuesOf(design: Design): Values {
   const bicycle = bicycleOf(design);
   const rider = riderOf(design);
-  const values: Values = { ...bicycle.values, ...rider?.values };
+  const values: Values = { ...(rider ? { handlebar_drop: 0 } : {}), ...bicycle.values, ...rider?.values };
   const angle = rider?.forward_lean_angles?.[bicycle.name];
   if (angle !== undefined) values.forward_lean_angle = angle;
   else if (rider && !("forward_lean_angle" in values)) values.forward_lean_angle = mean(rider.forward_lean_angles);
+  // Without springs and dampers these are zero.
+  for (const name of springsOf(variantOf(design))) values[name] = 0;
   return { ...values, ...design.changes };
 }
 
@@ -76,7 +88,7 @@ export function faultOf(values: Values, names: string[]): string {
     const good =
       Number.isFinite(value) &&
       (kind !== "positive" || value > 0) &&
-      (kind !== "zero or more" || value >= 0) &&
+      (kind !== "not negative" || value >= 0) &&
       (kind !== "angle" || (value > 0 && value < Math.PI / 2)) &&
       (kind !== "above ground" || value < 0) &&
       (kind !== "fraction" || (value > 0 && value < 1));
@@ -104,9 +116,13 @@ function inertiaFault(values: Values, body: string): string {
 
 /** A design as an address, and back: what is not said stays as the page begins. */
 export function toAddress(design: Design): string {
-  const { changes, torsoLean, speed, ...words } = design;
+  const { changes, torsoLean, speed, bar, sheet, ...words } = design;
   const fields = new URLSearchParams({ ...words, speed: String(speed) });
   if (torsoLean) fields.set("torso_lean", "1");
+  if (design.bicycle === SHEET) {
+    fields.set("bar", bar);
+    for (const [name, value] of Object.entries(sheet)) fields.set(PREFIX + name, String(value));
+  }
   for (const [name, value] of Object.entries(changes)) fields.set(name, String(value));
   return fields.toString();
 }
@@ -120,7 +136,7 @@ export function fromAddress(address: string): Design {
 /** Sets one thing of a design by its name, if the value makes sense; returns whether it did. */
 export function assign(design: Design, name: string, value: unknown): boolean {
   if (name === "bicycle") {
-    if (!bicycles.has(String(value))) return false;
+    if (!bicycles.has(String(value)) && value !== SHEET) return false;
     design.bicycle = String(value);
     if (!canSeat(design)) Object.assign(design, { rider: "", posture: "rigid", torsoLean: false });
   } else if (name === "rider") {
@@ -132,6 +148,13 @@ export function assign(design: Design, name: string, value: unknown): boolean {
     if (!findVariant(wanted.posture, wanted.arms, false) || wanted.posture === "bare") return false;
     if (name === "posture" && design.rider === "" && wanted.posture !== "rigid") return false;
     Object.assign(design, wanted);
+  } else if (name === "bar") {
+    if (!SHEETS.some((sheet) => sheet.bar === value)) return false;
+    takeSheet(design, String(value), design.sheet);
+  } else if (name.startsWith(PREFIX)) {
+    const [entry, number] = [name.slice(PREFIX.length), Number(value ?? NaN)];
+    if (!isEntry(entry) || value === "" || !Number.isFinite(number)) return false;
+    takeSheet(design, design.bar, { ...design.sheet, [entry]: number });
   } else if (name === "torso_lean") {
     design.torsoLean = value === true || value === 1 || value === "1" || value === "true";
   } else {
@@ -142,4 +165,13 @@ export function assign(design: Design, name: string, value: unknown): boolean {
     else return false;
   }
   return true;
+}
+
+/** Makes the sheet's bicycle the design's, with these entries; what of a bicycle was changed by hand is the sheet's again. */
+function takeSheet(design: Design, bar: string, entries: Values): void {
+  const begins = entriesOf(bar, {});
+  design.bicycle = SHEET;
+  design.bar = bar;
+  design.sheet = Object.fromEntries(Object.entries(entries).filter(([name, value]) => value !== begins[name]));
+  design.changes = Object.fromEntries(Object.entries(design.changes).filter(([name]) => describe.get(name)?.of !== "bicycle"));
 }

@@ -24,6 +24,10 @@ export function equationsOf(variant: Variant, values: Values): Equations {
   MATRICES.forEach((name, which) => {
     model[name] = Array.from({ length: n }, (_, i) => Array.from(outputs.subarray(which * n * n + i * n, which * n * n + i * n + n)));
   });
+  model.coordinates.forEach((joint, k) => {
+    model.S0[k][k] += values[`spring at ${joint}`] ?? 0;
+    model.C0[k][k] += values[`damper at ${joint}`] ?? 0;
+  });
   const [armShare, legShare, residual] = outputs.subarray(6 * n * n, 6 * n * n + 3);
   const fault = variant.skeleton === null ? "" : reachFault(armShare, legShare);
   if (fault) return { model, fault };

@@ -4,7 +4,8 @@ import { type Answer, answer, curvesOf, result } from "./answers";
 import { Chart, type Overlay } from "./chart";
 import type { Complex } from "./complex";
 import { Controls } from "./controls";
-import { addRecord, assign, bicycleNames, canSeat, type Design, firstDesign, fromAddress, riderNames, toAddress } from "./design";
+import { addRecord, assign, bicycleNames, canSeat, type Design, firstDesign, fromAddress, riderNames, springsOf, toAddress } from "./design";
+import { SheetForm } from "./form";
 import { readRecord } from "./records";
 import { Ride } from "./ride";
 import { readScheme } from "./style";
@@ -12,10 +13,11 @@ import { eigenmotion } from "./motion";
 import { drawPhasors } from "./phasors";
 import { byId, choices, matrixTable } from "./elements";
 import { VARIANTS } from "./data";
+import { PREFIX, SHEET } from "./sheets";
 import { readable } from "./units";
 
 const MOST_PINS = 3;
-const FIRST = ["bicycle", "rider", "posture", "arms", "torso_lean"];
+const FIRST = ["bicycle", "bar", "rider", "posture", "arms", "torso_lean"];
 const KMH = 3.6;
 
 export class Page {
@@ -27,6 +29,7 @@ export class Page {
   private readonly ride = new Ride();
   private readonly chart: Chart;
   private readonly controls: Controls;
+  private readonly form: SheetForm;
   /** How long the last redraw took, in ms. */
   lastRedraw = 0;
 
@@ -36,6 +39,7 @@ export class Page {
     this.controls = new Controls(byId("controls"), (name, value) =>
       value === null ? this.dropChange(name) : this.change({ [name]: value }),
     );
+    this.form = new SheetForm(byId("sheet"), (changes) => this.change(changes));
     const first = firstDesign();
     this.design = location.hash.length > 1 ? fromAddress(location.hash.slice(1)) : first;
     let found = answer(this.design);
@@ -68,8 +72,11 @@ export class Page {
   /** Sets several things at once; what cannot be is said, and the last possible design stays. */
   change(changes: Record<string, unknown>, remember = true): void {
     const wanted: Design = { ...this.design };
-    // What others depend on comes first, in whichever order it was said.
-    const names = [...FIRST.filter((name) => name in changes), ...Object.keys(changes).filter((name) => !FIRST.includes(name))];
+    // What others depend on comes first, in whichever order it was said: a sheet's entries before its rider, and both before changes.
+    const early = (name: string): boolean => FIRST.includes(name) || name.startsWith(PREFIX);
+    const entries = Object.keys(changes).filter((name) => name.startsWith(PREFIX));
+    const order = [...FIRST.slice(0, 2), ...entries, ...FIRST.slice(2)];
+    const names = [...order.filter((name) => name in changes), ...Object.keys(changes).filter((name) => !early(name))];
     const refused = names.map((name): [string, unknown] => [name, changes[name]]).filter(([name, value]) => !assign(wanted, name, value));
     if (refused.length) {
       this.say(refused.map(([name, value]) => `${name} = ${JSON.stringify(value)} cannot be set`).join("; "));
@@ -82,9 +89,15 @@ export class Page {
     const start = performance.now();
     const onlySpeed = JSON.stringify({ ...wanted, speed: 0 }) === JSON.stringify({ ...this.design, speed: 0 });
     const found = answer(wanted);
+    if (typeof found === "string" && wanted.rider && wanted.bicycle === SHEET && this.design.bicycle !== SHEET) {
+      // A sheet begins with whom it fits: whoever does not is put aside, and this is said.
+      this.take({ ...wanted, rider: "", posture: "rigid", torsoLean: false }, remember, true);
+      if (this.design.bicycle === SHEET) this.say(`${found}: shown without rider`);
+      return;
+    }
     if (typeof found === "string") {
       this.say(found);
-      this.controls.show(this.shownAnswer.values, this.design.changes, this.shownAnswer.variant.reads);
+      this.showControls();
       return;
     }
     if (remember && !onlySpeed) this.before.push(this.design);
@@ -106,7 +119,7 @@ export class Page {
   }
 
   reset(): void {
-    this.take({ ...this.design, changes: {} }, true);
+    this.take({ ...this.design, changes: {}, sheet: {} }, true);
   }
 
   private dropChange(name: string): void {
@@ -124,7 +137,7 @@ export class Page {
     const found = this.shownAnswer;
     if (everything) {
       this.chart.show(curvesOf(found), this.pins.map((pin) => pin.overlay), this.design.speed);
-      this.controls.show(found.values, this.design.changes, found.variant.reads);
+      this.showControls();
       matrixTable(byId("matrices"), found.model);
       this.showChoices();
     } else {
@@ -135,6 +148,12 @@ export class Page {
     this.ride.take(found, roots);
     this.showSpeed(roots);
     history.replaceState(null, "", `#${toAddress(this.design)}`);
+  }
+
+  private showControls(): void {
+    const { values, variant } = this.shownAnswer;
+    this.controls.show(values, this.design.changes, [...variant.reads, ...springsOf(variant)]);
+    this.form.show(this.design);
   }
 
   private showChoices(): void {

@@ -44,10 +44,11 @@ export function unitsOf(model: LinearModel): Units {
   );
   const usable = (x: number) => Number.isFinite(x) && x > 0;
   const byStiffness = Math.sqrt(k0) / Math.sqrt(k2);
-  const speed = usable(byStiffness) ? byStiffness : usable(c0 / c1) ? c0 / c1 : 1;
+  const size = usable(byStiffness) ? byStiffness : usable(c0 / c1) ? c0 / c1 : 1;
+  const speed = 2 ** exponentOf(size);
   const riding = Math.sqrt(g) / Math.sqrt(k2) / speed;
   return {
-    speed: 2 ** exponentOf(speed),
+    speed,
     riding: usable(riding) ? riding : 1,
     weights: M.map((row, i) => Math.sqrt(Math.abs(row[i]))),
     masses,

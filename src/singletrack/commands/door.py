@@ -11,7 +11,10 @@ import functools
 import importlib
 import inspect
 import logging
-from typing import TYPE_CHECKING, Annotated, Any, get_type_hints
+from enum import StrEnum
+from pathlib import PurePath
+from types import NoneType, UnionType
+from typing import TYPE_CHECKING, Annotated, Any, get_args, get_origin, get_type_hints
 
 import typer
 from typer.core import TyperCommand, TyperGroup
@@ -57,12 +60,22 @@ _SETTINGS = {"help_option_names": ["-h", "--help"]}
 _UsageError: Any = next(base for base in typer.BadParameter.__mro__ if base.__name__ == "ClickException")
 
 
+class _Command(TyperCommand):
+    """A command that loads nothing to tell that no help was asked for."""
+
+    def get_help_option(self, ctx: Any) -> Any:
+        return _unasked_for(super().get_help_option(ctx))
+
+
 class _Door(TyperGroup):
     """A group that knows its commands by name and help, and imports a command's module when it is called."""
 
     def __init__(self, **attributes: Any) -> None:
         super().__init__(**attributes)
         self.commands.update({name: TyperCommand(name, help=text) for name, text in COMMANDS.items()})
+
+    def get_help_option(self, ctx: Any) -> Any:
+        return _unasked_for(super().get_help_option(ctx))
 
     def resolve_command(self, ctx: Any, args: list[str]) -> tuple[str | None, Any, list[str]]:
         name, found, rest = super().resolve_command(ctx, args)
@@ -79,8 +92,57 @@ def command(name: str) -> Any:
     """
     module = importlib.import_module(f"singletrack.commands.{name.replace('-', '_')}")
     alone = typer.Typer(add_completion=False)
-    alone.command(name, help=COMMANDS[name], context_settings=_SETTINGS)(_flat(module.run))
-    return typer.main.get_command(alone)
+    function = _flat(module.run)
+    alone.command(name, help=COMMANDS[name], context_settings=_SETTINGS, cls=_Command)(function)
+    made = typer.main.get_command(alone)
+    for parameter in made.params:
+        _leave_as_it_is(parameter, function.__annotations__.get(parameter.name))
+    return made
+
+
+def _unasked_for(option: Any) -> Any:
+    """Return an option that does nothing where it is not given."""
+    convert = type(option).process_value
+
+    def process(ctx: Any, value: Any) -> Any:
+        return None if value is None else convert(option, ctx, value)
+
+    option.process_value = process
+    return option
+
+
+def _leave_as_it_is(parameter: Any, annotation: Any) -> None:
+    """Let a value that is of its kind already pass: the library would load one more, that converts, to tell.
+
+    What is not, or is missing, or has more to it, is left to the library.
+    """
+    convert = parameter.process_value
+    many, kind = _kind_of(annotation)
+
+    def process(ctx: Any, value: Any) -> Any:
+        if parameter.callback is None and kind is not None and not parameter.required:
+            if value is None:
+                return () if many else None
+            if many and isinstance(value, tuple | list) and all(isinstance(each, kind) for each in value):
+                return list(value)
+        if parameter.callback is None and kind is not None and not many:
+            if isinstance(value, kind):
+                return value
+            if issubclass(kind, StrEnum) and value in list(kind):
+                return kind(value)
+        return convert(ctx, value)
+
+    parameter.process_value = process
+
+
+def _kind_of(annotation: Any) -> tuple[bool, type | None]:
+    """Return whether an annotated parameter takes a list, and of what kind, None for none of the simple ones."""
+    kind = get_args(annotation)[0] if get_origin(annotation) is Annotated else annotation
+    if get_origin(kind) is UnionType:
+        kind = next(each for each in get_args(kind) if each is not NoneType)
+    many = get_origin(kind) is list
+    kind = get_args(kind)[0] if many else kind
+    return many, kind if isinstance(kind, type) and issubclass(kind, (str, bool, PurePath)) else None
 
 
 def _flat(function: Callable[..., None]) -> Callable[..., None]:

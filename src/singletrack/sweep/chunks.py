@@ -98,8 +98,9 @@ def _results(model: LinearModel, task: Task, count: int) -> tuple[dict[str, np.n
 
     def keep(name: str, values: np.ndarray, single: int) -> None:
         """Keep results whose part for one design has ``single`` dimensions."""
-        one = values.shape[values.ndim - single :]
-        arrays[name] = np.array(np.broadcast_to(values, (count, *one)))
+        whole = (count, *values.shape[values.ndim - single :])
+        fresh = name == "eigenvalues" and values.shape == whole  # the largest: nobody else has it, no copy is needed
+        arrays[name] = values if fresh else np.array(np.broadcast_to(values, whole))
 
     with np.errstate(all="ignore"):
         if "matrices" in task.keep:

@@ -24,6 +24,7 @@ from singletrack.parameters.record import ALLOWED
 from singletrack.posture import Options, loop_residual, moved_skeleton, seat
 from singletrack.tracing import javascript_function, trace
 from singletrack.webpage.records import page_records
+from singletrack.webpage.sheets import page_sheets
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
@@ -82,7 +83,7 @@ def variants() -> list[Variant]:
     found = [Variant(None, load_bicycle("benchmark"), None)]
     rider = load_rider("rider-a")
     for posture, arms, bicycle_name in _POSTURES:
-        bicycle = load_bicycle(bicycle_name)
+        bicycle = load_bicycle(bicycle_name).replace(handlebar_drop=0.0)  # read, so that bicycles may have it
         for torso_lean in (False, True):
             options = Options(posture, arms=arms, torso_lean=torso_lean)
             found.append(Variant(options, bicycle, rider.on(bicycle)))
@@ -143,6 +144,10 @@ def programs(all_variants: Iterable[Variant]) -> str:
             if variant.rider is not None:
                 moved = [*variant.nominal, *_freedoms(variant)]
                 parts.append(javascript_function(f"skeleton_{variant.name}", *trace(_skeleton(variant), moved)))
+        parts += [
+            javascript_function(sheet.name, *trace(sheet.program, list(sheet.inputs.values())))
+            for sheet in page_sheets()
+        ]
     finally:
         config.update("jax_enable_x64", val=before)
     return "\n".join(parts)
@@ -165,15 +170,28 @@ def manifest(all_variants: Iterable[Variant]) -> dict[str, Any]:
         for record in (Bicycle, Rider)
         for name, p in record.descriptions().items()
     ]
+    parameters += [
+        {"name": f"{kind} at {joint}", "of": "posture", **_ANSWERS[kind], **_POSTURE}
+        for joint in _JOINTS
+        for kind in _ANSWERS
+    ]
     return {
         "parameters": parameters,
         "allowed": {kind: words for kind, (words, _) in ALLOWED.items()},
         "flatness": FLATNESS_TOLERANCE,
         "variants": [_described(variant) for variant in all_variants],
+        "sheets": [sheet.described() for sheet in page_sheets()],
         "example": page_records(),
     }
 
 
+#: What may answer at a joint that is a freedom: on the diagonals of S0 and C0.
+_JOINTS = ("steer", "torso lean")
+_ANSWERS = {
+    "spring": {"unit": "N*m/rad", "meaning": "stiffness of a spring at the joint"},
+    "damper": {"unit": "N*m*s/rad", "meaning": "damping of a damper at the joint"},
+}
+_POSTURE = {"symbol": "", "group": "posture", "allowed": "not negative", "optional": True}
 _DESCRIBED = ("unit", "symbol", "meaning", "group", "allowed", "optional")
 
 
