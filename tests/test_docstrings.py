@@ -32,10 +32,15 @@ def public_functions() -> list[tuple[str, ast.FunctionDef, str]]:
             if isinstance(node, ast.FunctionDef) and node.name in public:
                 found.append((f"{module}.{node.name}", node, ""))
             if isinstance(node, ast.ClassDef) and node.name in public:
-                methods = [part for part in node.body if isinstance(part, ast.FunctionDef)]
+                # Overloads tell types alone; the function that follows them has the docstring.
+                methods = [part for part in node.body if isinstance(part, ast.FunctionDef) and not _is_overload(part)]
                 own = ast.get_docstring(node) or ""
                 found += [(f"{module}.{node.name}.{m.name}", m, own) for m in methods if not m.name.startswith("_")]
     return found
+
+
+def _is_overload(node: ast.FunctionDef) -> bool:
+    return any(ast.unparse(decorator) == "overload" for decorator in node.decorator_list)
 
 
 def _is_all(node: ast.Assign) -> bool:

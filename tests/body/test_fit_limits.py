@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import sys
 from math import pi, radians
 
 import numpy as np
 import pytest
 
-from singletrack import InputError, load_bicycle, load_rider
+from singletrack import InputError, PostureError, load_bicycle, load_rider
 from singletrack.body import skeleton
 from singletrack.body.fit import elbow_angle, fit, fitted
 from singletrack.body.reach import reach
@@ -62,3 +63,29 @@ def test_how_far_limbs_are_stretched(bicycle: object) -> None:
     arm = np.linalg.norm(np.asarray(points[21]) - np.asarray(points[19]))
     assert found["leg"] == pytest.approx(leg / (RIDER.upper_leg_length + RIDER.lower_leg_length), rel=1e-14)
     assert found["arm"] == pytest.approx(arm / (RIDER.upper_arm_length + RIDER.lower_arm_length), rel=1e-14)
+
+
+@pytest.mark.parametrize(
+    ("grip", "torso", "arms", "nearest"),
+    [
+        # Straight arms that just reach, along the torso and against it; a torso that would lie flat, or stand upright.
+        ((3.0, 0.0, -4.0), 2.0, 3.0, np.arctan2(4.0, 3.0)),
+        ((3.0, 0.0, 4.0), 2.0, 7.0, pi / 2),
+        ((0.0, 0.0, 1.0), 0.75, 1.25, 0.0),
+        ((1.0, 0.0, 0.0), 0.75, 1.25, pi / 2),
+    ],
+)
+def test_what_is_just_out_of_reach_is_out_of_reach(
+    monkeypatch: pytest.MonkeyPatch, grip: tuple[float, ...], torso: float, arms: float, nearest: float
+) -> None:
+    """All numbers are exact in binary: the bounds themselves are no leans, and the one that comes nearest is told."""
+    zero = np.zeros(3)
+    monkeypatch.setattr(sys.modules[fitted.__module__], "_places", lambda *_: (zero, zero, np.array(grip)))
+    rider = RIDER.replace(torso_length=np.array([torso]), upper_arm_length=arms / 2, lower_arm_length=arms / 2)
+    found, faults = fitted(STRATOS, rider, np.array(pi))
+    assert len(faults) == 1
+    assert faults[0].bad.tolist() == [True]
+    assert found.forward_lean_angle == pytest.approx(nearest, abs=2e-3)
+    single = rider.replace(torso_length=torso)
+    with pytest.raises(PostureError, match=r"the arms span .* m too (near|far)$"):
+        fit(STRATOS, single, pi)

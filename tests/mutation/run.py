@@ -105,6 +105,8 @@ class Python:
         kept = {name: os.environ[name] for name in ("PATH", "HOME") if name in os.environ}
         threads = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"), "1")
         names = {"MUTANTS": str(folder), "PACKAGE": folder.name, "RECORDS": str(folder / "coverage")}
+        if "BUDGET" in os.environ:
+            names["BUDGET"] = os.environ["BUDGET"]
         paths = {"PYTHONPATH": f"{copy / 'src'}{os.pathsep}{HERE}"}
         self.environment = {**kept, **threads, **paths, **names, "NUMBA_CACHE_DIR": str(folder / "numba")}
 

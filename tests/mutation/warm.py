@@ -29,10 +29,10 @@ if TYPE_CHECKING:
 ROOT = Path.cwd()
 #: Hypothesis without a memory, few examples, and no search for a smaller one: a mutant is dead at the first.
 EXAMPLES = 15
-#: Seconds beyond which a test takes no part.
-LONGEST = 5.0
 #: Seconds beyond which no further test is run for a mutant: those that come by are many, and the last tell nothing new.
-TOGETHER = 12.0
+TOGETHER = float(os.environ.get("BUDGET", "12"))
+#: Seconds beyond which a test takes no part.
+LONGEST = TOGETHER / 2
 PHASES = (hypothesis.Phase.explicit, hypothesis.Phase.generate)
 
 

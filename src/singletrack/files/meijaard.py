@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from singletrack.parameters.bicycle import Bicycle
 from singletrack.parameters.split_fork import (
@@ -63,7 +63,7 @@ def bicycle_from_values(given: NamedValues, source: str) -> Bicycle:
     given.require([symbol for symbol in MODEL_SYMBOLS if symbol not in values], "the parameter set")
     given.require_equal({name: follow(values) for name, follow in _DEPENDENT.items() if name in values})
     kept = (*_CONDITIONS, *SPLIT_SYMBOLS)
-    parameters = {NAMES[symbol]: value for symbol, value in values.items() if symbol in NAMES}
+    parameters: dict[str, Any] = {NAMES[s]: value for s, value in values.items() if s in NAMES}
     uncertain = {NAMES.get(s, s): sd for s, sd in deviations.items() if s in NAMES or s in SPLIT_SYMBOLS}
     return given.build(
         lambda: Bicycle(

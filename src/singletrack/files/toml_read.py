@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
 from singletrack.errors import InputError, SingletrackError, shown, unknown_name
 from singletrack.files.toml_keys import place_of, place_of_any
-from singletrack.files.toml_text import parse_toml
+from singletrack.files.toml_text import WrittenFloat, parse_toml
 from singletrack.parameters.hints import unknown_parameter
 from singletrack.parameters.record import Record
 from singletrack.parameters.rider import Rider
@@ -54,9 +54,9 @@ def parse_record(cls: type[R], text: str, where: str) -> R:
         Names the file, the line, the parameter, what was found and what is allowed.
     """
     file = _File(where, text)
-    document = parse_toml(text, where)
+    document = parse_toml(text, where, WrittenFloat)
     parameters = _checked_header(cls, document, file)
-    fields, deviations = _quantities(cls, parameters, file)
+    fields, deviations, written = _quantities(cls, parameters, file)
     extras, uncertain = _extras(cls, document, file)
     shapes = {"shapes": _shapes(document, file)} if cls is Rider else {"extras": extras}
     texts = {name: document.get(name, "") for name in _TEXTS} | {"name": document.get("name", Path(where).stem)}
@@ -64,7 +64,7 @@ def parse_record(cls: type[R], text: str, where: str) -> R:
     if missing:
         raise InputError(f"{where}: [parameters] lacks {', '.join(missing)}", parameters=missing)
     try:
-        return cls(**fields, **shapes, **texts, standard_deviations=deviations | uncertain)  # type: ignore[arg-type]  # checked above
+        return cls(**fields, **shapes, **texts, standard_deviations=deviations | uncertain, written=written)  # type: ignore[arg-type]  # checked above
     except SingletrackError as error:
         raise error.located(lambda names: place_of_any(where, text, names)) from None
 
@@ -94,9 +94,10 @@ def _checked_header(cls: type[R], document: Mapping[str, object], file: _File) -
 
 def _quantities(
     cls: type[R], parameters: Mapping[str, object], file: _File
-) -> tuple[dict[str, object], dict[str, float]]:
-    """Return values by parameter, and standard deviations where given."""
+) -> tuple[dict[str, object], dict[str, float], dict[str, str]]:
+    """Return values by parameter, standard deviations where given, and how the values were written."""
     fields: dict[str, object] = {}
+    written: dict[str, str] = {}
     deviations: dict[str, float] = {}
     descriptions = cls.descriptions()
     for name, found in parameters.items():
@@ -111,13 +112,15 @@ def _quantities(
             except InputError as error:
                 raise error.of(name).at(file.place(name)) from None
             angles[bicycle] = quantity.value
+            key = f"{name} on {bicycle}" if several else name
+            written[key] = getattr(value, "text", str(value))
             if quantity.deviation is not None:
-                deviations[f"{name} on {bicycle}" if several else name] = quantity.deviation
+                deviations[key] = quantity.deviation
         if several:
             fields["forward_lean_angles"] = angles
         else:
             fields[name] = angles[""]
-    return fields, deviations
+    return fields, deviations, written
 
 
 def _table(name: str, document: Mapping[str, object], file: _File) -> Mapping[str, object]:

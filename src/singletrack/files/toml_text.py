@@ -4,14 +4,30 @@ from __future__ import annotations
 
 import re
 import tomllib
+from typing import TYPE_CHECKING, Self
 
 from singletrack.errors import InputError
 from singletrack.files.toml_keys import line_of_deep_key
 
-__all__ = ["parse_toml"]
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+__all__ = ["WrittenFloat", "parse_toml"]
 
 
-def parse_toml(text: str, where: str) -> dict[str, object]:
+class WrittenFloat(float):
+    """A double that knows how it was written."""
+
+    text: str
+
+    def __new__(cls, text: str) -> Self:
+        """Return the double that a text of TOML says."""
+        made = super().__new__(cls, text)
+        made.text = text
+        return made
+
+
+def parse_toml(text: str, where: str, number: Callable[[str], float] = float) -> dict[str, object]:
     """Return what a TOML text says.
 
     Parameters
@@ -34,7 +50,7 @@ def parse_toml(text: str, where: str) -> dict[str, object]:
     if deep is not None:
         raise InputError(f"{where}, line {deep}: is not valid TOML: nested too deeply (dots)")
     try:
-        return tomllib.loads(text)
+        return tomllib.loads(text, parse_float=number)
     except tomllib.TOMLDecodeError as error:
         raise InputError(f"{where}: is not valid TOML: {error}") from None
     except RecursionError:

@@ -167,6 +167,7 @@ def override(record: R, texts: dict[str, str], where: str = "--set") -> R:
         if quantity.deviation is not None:
             deviations[name] = quantity.deviation
     try:
-        return dataclasses.replace(record, **changes, standard_deviations=deviations)
+        written = {**record.written, **texts}
+        return dataclasses.replace(record, **changes, standard_deviations=deviations, written=written)
     except SingletrackError as error:
         raise error.at(where) from None

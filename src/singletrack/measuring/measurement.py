@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -92,13 +92,14 @@ def measure(
     symbols = list(values)
     spread = dict(zip(symbols, np.sqrt(np.diag(covariance)).tolist(), strict=True))
     names = tuple(NAMES[symbol] for symbol in symbols if symbol in NAMES)
+    parameters: dict[str, Any] = {NAMES[symbol]: value for symbol, value in values.items() if symbol in NAMES}
     bicycle = Bicycle(
         name=name,
         description=f"Measured ({centre_fit} fit of the plumb lines)",
         source=source,
         standard_deviations={NAMES.get(symbol, symbol): s for symbol, s in spread.items() if s > 0},
         extras={symbol: value for symbol, value in values.items() if symbol in SPLIT_SYMBOLS},
-        **{NAMES[symbol]: value for symbol, value in values.items() if symbol in NAMES},
+        **parameters,
     )
     own = len(names)
     return Measurement(bicycle, names, covariance[:own, :own], lines)

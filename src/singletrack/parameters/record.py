@@ -41,6 +41,9 @@ class Record:
     extras : mapping of str to float
         Numbers of a file in another format that are no parameters (such as the speed of a parameter set), kept so
         that they can be written back.
+    written : mapping of str to str
+        How a file or ``--set`` wrote parameters, such as ``"16.9 deg"``, where that is known: exact, where the values
+        are rounded. What no longer says the value is not to be used (:mod:`singletrack.parameters.exact`).
     """
 
     kind: ClassVar[str] = "record"
@@ -52,6 +55,7 @@ class Record:
     source: str = ""
     standard_deviations: Mapping[str, Number] = field(default_factory=dict)
     extras: Mapping[str, float] = field(default_factory=dict)
+    written: Mapping[str, str] = field(default_factory=dict)
 
     def __new__(cls, *unnamed: Any, **named: Any) -> Self:
         """Refuse names that are none of its fields before Python does, with what to type instead."""

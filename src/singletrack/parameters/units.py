@@ -13,7 +13,7 @@ from typing import Any
 
 from singletrack.errors import InputError, shown
 
-__all__ = ["Quantity", "parse_quantity", "unit_registry"]
+__all__ = ["Quantity", "parse_quantity", "unit_registry", "written_parts"]
 
 _DEFINITIONS = """
 milli- = 1e-3 = m-
@@ -110,6 +110,24 @@ def parse_quantity(found: object, unit: str) -> Quantity:
         reason = f"{found!r} has a standard deviation that is not a finite number of zero or more"
         raise InputError(reason, found=found, allowed="a standard deviation of zero or more")
     return Quantity(value, deviation)
+
+
+def written_parts(text: str) -> tuple[str, str]:
+    """Return number and unit of a text that :func:`parse_quantity` takes, as they were written.
+
+    Parameters
+    ----------
+    text : str
+
+    Examples
+    --------
+    >>> written_parts("0.0563 +/- 0.0017 m")
+    ('0.0563', 'm')
+    """
+    match = _QUANTITY.fullmatch(text.strip())
+    if match is None:
+        raise _refusal(text, f"{text[:60]!r} is not a number with an optional unit", "")
+    return match["value"], (match["unit"] or "").strip()
 
 
 def _is_foreign(text: str) -> bool:

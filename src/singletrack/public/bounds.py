@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from singletrack.errors import InputError
 
 __all__ = ["MOST", "within"]
@@ -16,24 +18,30 @@ MOST: dict[str, tuple[float, str]] = {
 }
 
 
-def within(**values: float | None) -> None:
-    """Raise InputError for the first of these that is beyond its bounds, or not finite; None is nothing.
+def within(name: str, value: float) -> float:
+    """Return a number in double precision; raise InputError where it is none, or beyond its bounds.
 
     Parameters
     ----------
-    values
-        By the names of :data:`MOST`.
+    name : str
+        One of :data:`MOST`.
+    value : float
+        A single real number of any precision.
 
     Examples
     --------
-    >>> within(speed=5.0, radius=None)
-    >>> within(speed=1e308)
+    >>> within("speed", 5)
+    5.0
+    >>> within("speed", 1e308)
     Traceback (most recent call last):
     singletrack.errors.InputError: speed: found 1e+308 m/s, must be a number from -1000 to 1000 m/s
     """
-    for name, value in values.items():
-        most, unit = MOST[name]
-        if value is not None and not abs(value) <= most:
-            allowed = f"a number from -{most:g} to {most:g} {unit}"
-            text = f"{name}: found {value:g} {unit}, must be {allowed}"
-            raise InputError(text, parameters=(name,), found=value, allowed=allowed)
+    most, unit = MOST[name]
+    number = np.asarray(value)
+    real = number.dtype.kind in "iuf" and number.ndim == 0 and not isinstance(value, np.ma.MaskedArray)
+    if real and abs(float(number)) <= most:
+        return float(number)
+    allowed = f"a number from -{most:g} to {most:g} {unit}"
+    found = f"{float(number):g} {unit}" if real else repr(value)[:80].partition("\n")[0]
+    text = f"{name}: found {found}, must be {allowed}"
+    raise InputError(text, parameters=(name,), found=value, allowed=allowed)

@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import dataclasses
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, Self
+from typing import TYPE_CHECKING, Any, Literal, Self, overload
 
 from singletrack import closed_form
 from singletrack.body.oddities import warn_of_oddities
+from singletrack.errors import InputError
 from singletrack.linear import CriticalSpeeds, Modes, StateSpace, critical_speeds, eigenvalues, modes
 from singletrack.model import LinearModel, Outputs
 from singletrack.posture import Options, named_posture, require_posture, require_records
 from singletrack.present.latex import latex_table
+from singletrack.public.certifying import certifier
 from singletrack.public.display import lines_of_model, table_of_model
 from singletrack.public.origin import Origin, observed
 from singletrack.public.plotting import figure_of_model
@@ -24,6 +26,7 @@ if TYPE_CHECKING:
 
     from singletrack.analysis.uncertainty import EigenvalueUncertainty
     from singletrack.arrays import Array, ArrayLike, Number
+    from singletrack.certify import Certificate
     from singletrack.parameters import Bicycle, Rider
     from singletrack.posture import Mechanism
 
@@ -89,9 +92,43 @@ class CoefficientMatrices(LinearModel):
         """Return the eigenvalues as named modes, followed through the speeds (see :class:`Modes`)."""
         return modes(self, speeds)
 
-    def critical_speeds(self) -> CriticalSpeeds:
-        """Return weave and capsize speeds and the stable ranges (see :class:`CriticalSpeeds`)."""
-        return critical_speeds(self)
+    @overload
+    def critical_speeds(self, *, certify: Literal[False] = False) -> CriticalSpeeds: ...
+
+    @overload
+    def critical_speeds(
+        self, *, certify: Literal[True], over: Mapping[str, Sequence[str | float]] | None = None
+    ) -> Certificate: ...
+
+    def critical_speeds(
+        self, *, certify: bool = False, over: Mapping[str, Sequence[str | float]] | None = None
+    ) -> CriticalSpeeds | Certificate:
+        """Return weave and capsize speeds and the stable ranges (see :class:`CriticalSpeeds`).
+
+        Parameters
+        ----------
+        certify : bool
+            Prove them, by ball arithmetic: a :class:`~singletrack.certify.Certificate`. The parameters of the bicycle
+            and rider are taken as files wrote them, doubles as their shortest decimals; of a model that was not made by
+            :func:`coefficients` (or changed since), each entry of the matrices as its shortest decimal.
+        over : mapping of str to (str or float, str or float), optional
+            With ``certify``: parameters that take every value between two bounds, such as
+            ``{"trail": ("55 mm", "57 mm")}``; numbers in SI.
+
+        Raises
+        ------
+        InputError
+            Certificates: for a batch of designs, a parameter that is not there, without the libraries needed.
+        """
+        if not certify:
+            if over is not None:
+                raise InputError("over: says which designs are certified, and needs certify=True")
+            return critical_speeds(self)
+        room, design = certifier(), self.__dict__.get("design")
+        if design is None and over:
+            raise InputError("over: needs a model of a bicycle, as coefficients makes it; this one has matrices alone")
+        found: Certificate = room.certify_matrices(self) if design is None else room.certify_design(*design, over)
+        return found
 
     def plot(
         self,
@@ -253,4 +290,7 @@ def coefficients(
     shares = None if single is None or single.margins is None else single.margins.shares
     warn_of_oddities(bicycle, rider, shares)
     model = closed_form.coefficients(bicycle, rider, options) if single is None else single.model
-    return CoefficientMatrices.of(model, None if rider is None else Origin(bicycle, rider, options))
+    made = CoefficientMatrices.of(model, None if rider is None else Origin(bicycle, rider, options))
+    # What it was made of, for certificates: no field, so that no changed copy of the model inherits it.
+    made.__dict__["design"] = (bicycle, rider, options)
+    return made

@@ -132,11 +132,10 @@ def ride_for(
     'rode on'
     """
     require_records(bicycle, rider)
-    if not (np.isfinite(duration) and duration > 0.0):
+    speed, push, lean = within("speed", speed), within("push", push), within("lean", lean)
+    duration = within("duration", duration)
+    if not duration > 0.0:
         raise InputError(f"duration: {duration!r} s; allowed: above zero")
-    if not np.isfinite(speed):
-        raise InputError(f"speed: {speed!r} m/s; allowed: a finite number")
-    within(speed=speed, duration=duration, push=push, lean=lean)
     model = bicycle_model(bicycle, rider, options)
     start = ride(model, speed, {"lean": lean}, {"lean": push})
     given: dict[str, Any] = {} if torque is None else {"steer torque": Sampled(*torque)}

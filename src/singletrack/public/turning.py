@@ -167,7 +167,9 @@ def turn(
     (17.9, -0.29)
     """
     require_records(bicycle, rider)
-    within(speed=speed, lean=lean, radius=radius)
+    speed = within("speed", speed)
+    lean = None if lean is None else within("lean", lean)
+    radius = None if radius is None else within("radius", radius)
     model = bicycle_model(bicycle, rider, options)
     sought = held_turn(model, speed, lean=lean, radius=radius)
     way = sought.state["lean"]
@@ -211,7 +213,7 @@ def turn_family(
     'left hand at the end of its reach'
     """
     require_records(bicycle, rider)
-    within(speed=speed)
+    speed = within("speed", speed)
     model = bicycle_model(bicycle, rider, options)
     names, values = _straight(bicycle, rider, options, speed)
     family = held_turns(model, speed, right=right)
