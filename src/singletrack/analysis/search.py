@@ -97,7 +97,8 @@ def search(
     tell : callable, optional
         Called with each result as it comes.
     first : array, shape (k,), optional
-        Where the first search starts instead of from the design as it is.
+        Where the first search starts instead of from the design as it is: share of the way from each lower bound to
+        the upper.
 
     Notes
     -----

@@ -101,7 +101,7 @@ def program_of(bicycle: Bicycle, rider: Rider | None, options: Options) -> Progr
     if rider is None:
         return program_named(RIDERLESS)
     if (
-        None in _geometry(own)
+        any(value is None for value in _geometry(own))
         or own["handlebar_width"] is not None
         or rider.elbow_drop_angle is not None
         or rider.shapes

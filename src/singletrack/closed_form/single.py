@@ -15,6 +15,7 @@ import numpy as np
 
 from singletrack.closed_form.programs import MATRICES, program_of
 from singletrack.closed_form.round_tyres import on_round_tyres
+from singletrack.closed_form.soundness import CONDITION, DEFINITE, INERTIA, REACH, RESIDUAL
 from singletrack.model import COORDINATES, INPUTS, LinearModel
 from singletrack.posture import STEER, TORSO_LEAN, Margins, Options, input_name
 
@@ -25,15 +26,10 @@ if TYPE_CHECKING:
     from singletrack.closed_form.programs import Program
     from singletrack.parameters import Bicycle, Rider
 
-__all__ = ["Single", "single_design"]
+__all__ = ["NAMES", "Single", "single_design"]
 
-#: Well within what the equations for arrays let pass: limbs' reach, residual and condition of loops, inertia of a free
-#: joint, mass matrix.
-_REACH = 1e-9
-_RESIDUAL, _CONDITION, _INERTIA = 1e-12, 1e8, 1e-9
-_DEFINITE = 1e-6
 #: Coordinates and inputs by their number.
-_NAMES = {2: (COORDINATES, INPUTS), 3: ((*COORDINATES, TORSO_LEAN), (*INPUTS, input_name(TORSO_LEAN)))}
+NAMES = {2: (COORDINATES, INPUTS), 3: ((*COORDINATES, TORSO_LEAN), (*INPUTS, input_name(TORSO_LEAN)))}
 _WRONG = (ValueError, ZeroDivisionError, OverflowError)
 
 
@@ -89,7 +85,7 @@ def single_design(bicycle: Bicycle, rider: Rider | None, options: Options) -> Si
         if not _sits(found[size + 2 :], rider):
             return None
     M, C1, K0, K2 = np.array(found[: len(MATRICES) * n * n]).reshape(-1, n, n)
-    names, (C0, S0) = _NAMES[n], laws
+    names, (C0, S0) = NAMES[n], laws
     model = LinearModel(M, C1, K0, K2, bicycle.gravity, C0=C0, S0=S0, coordinates=names[0], inputs=names[1])
     return Single(on_round_tyres(model, bicycle, load), seated)
 
@@ -140,13 +136,13 @@ def _sits(margins: Sequence[float], rider: Rider) -> bool:
     """Tell whether limbs reach and fold and the arms follow the steer, with room to spare; margins as they stand."""
     arm, leg, residual, condition, inertia = margins
     own = rider.__dict__
-    if not (residual < _RESIDUAL and condition < _CONDITION and inertia > _INERTIA):
+    if not (residual < RESIDUAL and condition < CONDITION and inertia > INERTIA):
         return False
     for share, upper, lower in (
         (arm, own["upper_arm_length"], own["lower_arm_length"]),
         (leg, own["upper_leg_length"], own["lower_leg_length"]),
     ):
-        if not (share < 1 - _REACH and share * (upper + lower) > abs(upper - lower) + _REACH):
+        if not (share < 1 - REACH and share * (upper + lower) > abs(upper - lower) + REACH):
             return False
     return True
 
@@ -158,8 +154,8 @@ def _definite(entries: tuple[float, ...], n: int) -> bool:
         return False
     a = entries[1] / sqrt(diagonal[0] * diagonal[1])
     if n == 2:
-        return abs(a) < 1 - _DEFINITE
+        return abs(a) < 1 - DEFINITE
     b = entries[2] / sqrt(diagonal[0] * diagonal[2])
     c = entries[5] / sqrt(diagonal[1] * diagonal[2])
     # Leading minors of M scaled to a unit diagonal; its least eigenvalue is at least 4/9 of the last one.
-    return abs(a) < 1 - _DEFINITE and 1 + 2 * a * b * c - a * a - b * b - c * c > _DEFINITE
+    return abs(a) < 1 - DEFINITE and 1 + 2 * a * b * c - a * a - b * b - c * c > DEFINITE

@@ -135,13 +135,16 @@ def _at_speed(system: StateSpace, input_name: str, weights: Weights) -> tuple[fl
 
 
 def least_energy(A: np.ndarray, b: np.ndarray, start: np.ndarray) -> float:
-    """Return the least ∫u² dt that brings a system back to rest from a state; infinite if it cannot be done.
+    """Return the least ∫u² dt that brings a system back to rest from a state, in its units; infinite if it cannot be.
 
     Parameters
     ----------
     A : array, shape (N, N)
+        In 1/s and whatever units the states have.
     b : array, shape (N, m)
+        In units of the states for each of the input, 1/s.
     start : array, shape (N,)
+        In units of the states.
 
     Notes
     -----

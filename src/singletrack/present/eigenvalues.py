@@ -165,7 +165,7 @@ def broken(roots: np.ndarray, column: int) -> np.ndarray:
     Parameters
     ----------
     roots : complex array, shape (k, 2 n)
-        At k speeds.
+        At k speeds, in 1/s.
     column : int
         Of the mode.
     """

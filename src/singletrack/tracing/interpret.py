@@ -39,7 +39,7 @@ def trace(function: Callable[[Any], Any], nominal: Sequence[float]) -> tuple[Gra
     function : callable
         Takes a JAX array, shape (n,); returns an array or a tuple of arrays.
     nominal : sequence of float, shape (n,)
-        Inputs at which pivots of linear systems are chosen.
+        Inputs, of any unit, at which pivots of linear systems are chosen.
 
     Returns
     -------

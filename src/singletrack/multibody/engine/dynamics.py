@@ -156,7 +156,7 @@ def _reduced_numerically(model: Model, parts: Partition) -> ca.Function:
 
 
 def accelerations(state: State, inputs: Mapping[str, float] | None = None) -> Response:
-    """Return the accelerations and constraint forces of a state under constant inputs.
+    """Return the accelerations and constraint forces of a state under constant inputs (N, N m).
 
     Raises
     ------
