@@ -127,8 +127,15 @@ def reduced_expression(equations: Equations, parts: Partition, sizes: tuple[int,
 
 
 def elimination_operations(pattern: Array) -> int:
-    """Return how many multiplications elimination in the order of a block takes, whose entries (k, k) are true or zero.
+    """Return how many multiplications elimination in the order of a block takes.
 
+    Parameters
+    ----------
+    pattern : bool array, shape (k, k)
+        Which entries are not zero.
+
+    Examples
+    --------
     >>> elimination_operations(np.eye(5, dtype=bool)), elimination_operations(np.ones((5, 5), dtype=bool))
     (0, 40)
     """
