@@ -59,7 +59,8 @@ def test_a_program_gives_the_matrices_of_the_equations_for_arrays(name: str, see
             **{key: value * (1 + 0.5 * much * rng.uniform(-1, 1)) for key, value in rider.values().items()}
         )
         joint = "torso lean" if options.torso_lean else "steer"
-        options = Options(options.posture, torso_lean=options.torso_lean, springs={joint: 3.0}, dampers={"steer": 0.5})
+        sprung = {"springs": {joint: np.float64(3.0)}, "dampers": {"steer": 2}}
+        options = Options(options.posture, torso_lean=options.torso_lean, **sprung)
     single = single_design(bicycle, rider, options or Options())
     try:
         expected = by_arrays(bicycle, rider, options or Options())

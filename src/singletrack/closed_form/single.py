@@ -112,7 +112,7 @@ def _values(program: Program, bicycle: Bicycle, rider: Rider | None) -> tuple[fl
         lean = rider.forward_lean_angle
         if lean is None:
             lean = rider.forward_lean_angles.get(bicycle.name)
-            lean = lean if type(lean) is float and 0 < lean < pi / 2 else None
+            lean = lean if isinstance(lean, float) and 0 < lean < pi / 2 else None
         drop = bicycle.handlebar_drop
         own = {**own, **rider.__dict__, "torso_width": width, "torso_thickness": thickness, "forward_lean_angle": lean}
         own["handlebar_drop"] = 0.0 if drop is None else drop
@@ -126,7 +126,7 @@ def _laws(options: Options, freedoms: int) -> tuple[Array, Array] | None:
     for matrix, amounts in zip(found, (options.dampers, options.springs), strict=True):
         for name, amount in amounts.items():
             place = 1 if name == STEER else 2
-            if name not in (STEER, TORSO_LEAN) or place >= freedoms or type(amount) is not float:
+            if name not in (STEER, TORSO_LEAN) or place >= freedoms or not isinstance(amount, int | float):
                 return None
             matrix[place, place] = amount
     return found[0], found[1]

@@ -11,13 +11,14 @@ import numpy as np
 from singletrack.arrays import Array
 from singletrack.errors import ModelError
 from singletrack.multibody.engine.assembly import span_of
+from singletrack.multibody.engine.dynamics import by_hand
 from singletrack.multibody.engine.evaluation import Evaluator, slope_jacobian
 from singletrack.multibody.engine.events import Moment, Watched, passages
 from singletrack.multibody.engine.inputs import Signal
 from singletrack.multibody.engine.model import State
 from singletrack.multibody.engine.passing import NEAR, best_choice, continue_through
 from singletrack.multibody.engine.prescribed import Drives
-from singletrack.multibody.engine.reduction import MOST_ROWS, pivot_growth
+from singletrack.multibody.engine.reduction import pivot_growth
 from singletrack.multibody.engine.results import Snapshot
 from singletrack.multibody.engine.singular import RankLoss, Usual, find_rank_loss, firmness, weakest
 
@@ -87,7 +88,7 @@ def quality(state: State) -> tuple[float, float]:
     dependent = jacobian[np.ix_(list(parts.rows), list(parts.dependent_speeds))]
     dependent = dependent / np.linalg.norm(jacobian[list(parts.rows)], axis=1, keepdims=True)
     eliminated = dependent[[parts.rows.index(row) for row in parts.pivots]]
-    growth = pivot_growth(eliminated) if len(parts.rows) <= MOST_ROWS else 1.0
+    growth = pivot_growth(eliminated) if by_hand(state.model, parts) else 1.0
     try:
         fastest = float(np.max(abs(span_of(parts, jacobian)), initial=1.0))
         return max(fastest, float(np.linalg.cond(dependent)), growth), float(np.linalg.slogdet(dependent)[0])
