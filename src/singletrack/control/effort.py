@@ -122,6 +122,8 @@ def _at_speed(system: StateSpace, input_name: str, weights: Weights) -> tuple[fl
     b = system.B[:, [system.inputs.index(input_name)]]
     start = _push(system)
     energy = least_energy(system.A, b, start)
+    if not np.isfinite(energy):  # an unstable mode that the input does not reach: no feedback holds it
+        return energy, np.inf, np.inf, np.inf
     try:
         gain, cost = feedback_gain(system.A, b, weights)
     except np.linalg.LinAlgError:
