@@ -38,6 +38,9 @@ MOST = {
     "leaned-bent-abduction-torso-lean": 2408,
     "leaned-bent-axial": 1660,
     "leaned-bent-axial-torso-lean": 2402,
+    "rigid-elbows-aside": 677,
+    "upright-axial-elbows-aside": 1585,
+    "leaned-straight-abduction-elbows-aside": 1568,
 }
 
 
