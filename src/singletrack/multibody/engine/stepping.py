@@ -253,7 +253,7 @@ def _choose_anew(run: Run) -> None:
 
 def _stuck(run: Run) -> str:
     if not np.all(np.isfinite([signal(t) for signal in run.signals for t in (run.time, run.time + CRAWLING)])):
-        return f"an input is not finite at t = {run.time:.6g} s"
+        return f"the simulation cannot go on at t = {run.time:.6g} s: an input is not finite there"
     return (
         f"the simulation cannot go on at t = {run.time:.6g} s: the steps become too short; a spring or damper may be "
         "too stiff for the method (Radau is for stiff machines), or something grows without bound"
