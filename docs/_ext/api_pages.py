@@ -24,6 +24,7 @@ ROOMS = (
     "linear",
     "control",
     "analysis",
+    "certify",
     "multibody",
     "spacar",
     "sweep",

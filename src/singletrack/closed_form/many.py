@@ -11,14 +11,13 @@ import dataclasses
 from functools import cache
 from importlib.util import find_spec
 from math import pi
-from operator import itemgetter
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from singletrack.arrays import Fault, stretches
 from singletrack.arrays.tape import WORDS, record
-from singletrack.closed_form.programs import MATRICES, program_of
+from singletrack.closed_form.programs import MATRICES, program_of, values_of
 from singletrack.closed_form.round_tyres import on_round_tyres
 from singletrack.closed_form.single import NAMES
 from singletrack.closed_form.soundness import is_definite, sits
@@ -123,7 +122,7 @@ def many_designs(
 
 def _run(program: Program, values: tuple[Number, ...]) -> Array:
     """Return the entries (rows, N) that a program makes of values, arrays (N,) or numbers."""
-    count = max(np.size(value) for value in values)
+    (count,) = np.broadcast_shapes(*map(np.shape, values))
     computed = _Kernels.computed[program.name] = _Kernels.computed.get(program.name, 0) + count
     if computed > _WORTH_COMPILING:
         use_compiled(program)
@@ -155,22 +154,9 @@ def _tape(program: Program) -> Tape:
     return record(program.function(WORDS), len(program.of_bicycle) + len(program.of_rider))
 
 
-@cache
-def _reader(program: Program) -> Callable[[dict[str, Any]], tuple[Any, ...]]:
-    return itemgetter(*program.of_bicycle, *program.of_rider)
-
-
 def _values(program: Program, bicycle: Bicycle, rider: Rider | None) -> tuple[Number, ...] | None:
     """Return the values that a program takes, None if one is missing or complex."""
-    own: dict[str, Any] = bicycle.__dict__
-    if rider is not None:
-        width, thickness = rider.torso_section
-        lean = rider.forward_lean_angle
-        lean = rider.forward_lean_angles.get(bicycle.name) if lean is None else lean
-        drop = bicycle.handlebar_drop
-        own = {**own, **rider.__dict__, "torso_width": width, "torso_thickness": thickness, "forward_lean_angle": lean}
-        own["handlebar_drop"] = 0.0 if drop is None else drop
-    found = _reader(program)(own)
+    found = values_of(program, bicycle, rider)
     if any(value is None or np.asarray(value).dtype.kind != "f" for value in found):
         return None
     return found

@@ -8,19 +8,18 @@ from __future__ import annotations
 import functools
 from dataclasses import dataclass
 from math import isfinite, pi, sqrt
-from operator import itemgetter
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from singletrack.closed_form.programs import MATRICES, program_of
+from singletrack.closed_form.programs import MATRICES, program_of, values_of
 from singletrack.closed_form.round_tyres import on_round_tyres
 from singletrack.closed_form.soundness import CONDITION, DEFINITE, INERTIA, REACH, RESIDUAL
 from singletrack.model import COORDINATES, INPUTS, LinearModel
 from singletrack.posture import STEER, TORSO_LEAN, Margins, Options, input_name
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping, Sequence
+    from collections.abc import Callable, Sequence
 
     from singletrack.arrays import Array
     from singletrack.closed_form.programs import Program
@@ -99,24 +98,13 @@ def _function(program: Program) -> Callable[..., tuple[float, ...]]:
     return program.function()
 
 
-@functools.cache
-def _reader(program: Program) -> Callable[[Mapping[str, Any]], tuple[Any, ...]]:
-    return itemgetter(*program.of_bicycle, *program.of_rider)
-
-
 def _values(program: Program, bicycle: Bicycle, rider: Rider | None) -> tuple[float, ...] | None:
-    """Return the values that a program takes, or None if one is missing."""
-    own: dict[str, Any] = bicycle.__dict__
-    if rider is not None:
-        width, thickness = rider.torso_section
-        lean = rider.forward_lean_angle
-        if lean is None:
-            lean = rider.forward_lean_angles.get(bicycle.name)
-            lean = lean if isinstance(lean, float) and 0 < lean < pi / 2 else None
-        drop = bicycle.handlebar_drop
-        own = {**own, **rider.__dict__, "torso_width": width, "torso_thickness": thickness, "forward_lean_angle": lean}
-        own["handlebar_drop"] = 0.0 if drop is None else drop
-    found = _reader(program)(own)
+    """Return the values that a program takes, or None if one is missing, or the lean angle none."""
+    found = values_of(program, bicycle, rider)
+    if rider is not None and rider.forward_lean_angle is None:  # an angle of the rider's list is not checked yet
+        lean = rider.forward_lean_angles.get(bicycle.name)
+        if not (isinstance(lean, float) and 0 < lean < pi / 2):
+            return None
     return None if None in found else found
 
 
