@@ -119,14 +119,17 @@ def test_legs_on_joints_of_their_own_do_not_lean_with_the_torso() -> None:
 
 
 def test_how_many_joints_to_free_is_said() -> None:
-    """Three more hinges in an arm: its hand's three conditions determine three of six."""
+    """Six more hinges in an arm: two hands' six conditions determine six of twelve."""
     hinge = '[[joints]]\nname = "more {}"\nparent = "{}"\npoint = "right elbow"\naxis = {}\n'
     more = "".join(
         hinge.format(k, parent, axis)
-        for k, parent, axis in ((1, "right elbow", "[1, 0, 0]"), (2, "more 1", "[0, 0, 1]"), (3, "more 2", "[1, 0, 1]"))
+        for k, parent, axis in (
+            (1, "right elbow", "[1, 0, 0]"),
+            *((k, f"more {k - 1}", f"[{k}, 0, 1]") for k in range(2, 7)),
+        )
     )
-    text = TEXT.replace("[[loops]]", f"{more}\n[[loops]]", 1).replace('joint = "right elbow"', 'joint = "more 3"')
-    with pytest.raises(PostureError, match=r"6 conditions for 9 joints .* declare 3 free"):
+    text = TEXT.replace("[[loops]]", f"{more}\n[[loops]]", 1).replace('joint = "right elbow"', 'joint = "more 6"')
+    with pytest.raises(PostureError, match=r"6 conditions for 12 joints .* declare 6 free"):
         coefficients(BICYCLE, RIDER, parse_mechanism(text, "mine.toml"))
     one = text[text.index("[[loops]]") :]
     left = one[one.index("[[loops]]", 5) : one.index("\n[", one.index("[[loops]]", 5) + 9)]
