@@ -79,12 +79,16 @@ def run(
     if len(goals) > 2:
         raise InputError(f"--aim: found {len(goals)}, must be one or two")
     problem = Problem(design, goals[0], parse_bounds(design, vary, "--vary"), _keeps(design, keep or []))
+    asked = (bicycle, *aims, *vary, *(keep or []), repr(options), str(seed))
     if len(goals) == 2:
-        if state is not None or output is not None:
-            raise InputError("--state and -o: are for one aim; a front has many designs")
-        _print_front(problem, goals[1], pareto_front(problem, goals[1], points, starts, seed), json=json)
+        if output is not None:
+            raise InputError("-o: is for one aim; a front has many designs")
+        asked = (*asked, str(points), str(starts))
+    known, tell = _resumed(state, problem, asked)
+    if len(goals) == 2:
+        front = pareto_front(problem, goals[1], points, starts, seed, tell, known)
+        _print_front(problem, goals[1], front, json=json)
         return
-    known, tell = _resumed(state, problem, (bicycle, *aims, *vary, *(keep or []), repr(options), str(seed)))
     found = search(problem, starts, seed, known, tell)
     best = found[0]
     if output is not None:
