@@ -124,7 +124,7 @@ def part_of(value: Any, which: slice | np.ndarray, shape: tuple[int, ...]) -> An
     value : array, shape (...)
         Or anything that is no array with axes.
     which : slice or array of int
-        Designs, as numbered along one axis.
+        Indices of designs, as numbered along one axis.
     shape : tuple of int
         Of the batch.
 

@@ -28,7 +28,7 @@ def part_of_record(record: _Record, which: slice | Array, shape: tuple[int, ...]
     ----------
     record : Record
     which : slice or array of int, shape (k,)
-        Designs, as numbered along one axis.
+        Indices of designs, as numbered along one axis.
     shape : tuple of int
         Of a batch to which the parameters broadcast.
 
