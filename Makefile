@@ -4,7 +4,7 @@ VENV ?= .venv
 BIN := $(VENV)/bin
 TOOLS ?= .tools
 
-.PHONY: reproduce test coverage fuzz check format benchmark setup setup-dev setup-docs lock lock-docs audit kill mutants clean
+.PHONY: reproduce test coverage fuzz check format benchmark setup setup-dev setup-docs lock audit kill mutants clean
 
 reproduce: setup
 	$(BIN)/singletrack reproduce
@@ -70,19 +70,15 @@ $(TOOLS)/ready: requirements/tools.txt
 
 # After a change of dependencies: pin the version in constraints.txt, then write the lists of hashes anew, for every
 # Python from 3.11 on and every system.
-LOCK = $(TOOLS)/bin/uv pip compile --quiet --universal --python-version $(or $(FROM),3.11) --generate-hashes --no-annotate --no-header \
+LOCK = $(TOOLS)/bin/uv pip compile --quiet --universal --python-version 3.11 --generate-hashes --no-annotate --no-header \
 	--no-config --constraint constraints.txt
 
 lock: $(TOOLS)/ready
 	$(LOCK) pyproject.toml requirements/build.in --output-file requirements/run.txt
 	$(LOCK) pyproject.toml requirements/build.in --extra dev --output-file requirements/dev.txt
-	$(MAKE) --no-print-directory lock-docs FROM=3.11.5
+	$(LOCK) pyproject.toml requirements/build.in --extra docs --output-file requirements/docs.txt
 	$(LOCK) requirements/tools.in --output-file requirements/tools.txt
 
-lock-docs: $(TOOLS)/ready  # the theme parses with a package of Python 3.11.5
-	$(LOCK) pyproject.toml requirements/build.in --extra docs --output-file requirements/docs.txt
-
-LISTS = requirements/dev.txt requirements/docs.txt requirements/tools.txt
 audit: $(TOOLS)/ready
 	$(TOOLS)/bin/python requirements/audit.py $(TOOLS)/bin/pip-audit $(LISTS)
 

@@ -1,7 +1,8 @@
-"""Whole commands as a user runs them: import, one model, the whole paper.
+"""Whole commands as a user runs them, in seconds of the processor, beside what Python takes to load NumPy.
 
-Budgets on two cores: `import singletrack` 0.3 s of CPU, `singletrack coefficients` 1 s, `singletrack reproduce` 10 s.
-Run with ``make benchmark`` or ``pytest benchmarks --benchmark-enable``.
+Budgets: the light commands 0.25 s, `singletrack coefficients` 0.35 s, `singletrack reproduce` 10 s. What they import is
+tested (tests/commands/test_plain.py). Run with ``make benchmark`` or ``pytest benchmarks/bench_commands.py
+--benchmark-enable -n 0``; the table is at the end.
 """
 
 from __future__ import annotations
@@ -9,7 +10,7 @@ from __future__ import annotations
 import resource
 import subprocess
 import sys
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import pytest
 
@@ -17,22 +18,38 @@ if TYPE_CHECKING:
     from pathlib import Path
 
 MODULE = [sys.executable, "-m", "singletrack"]
+NUMPY = [sys.executable, "-c", "import numpy"]
 COMMANDS = {
-    "import": ([sys.executable, "-c", "import singletrack"], 0.3),
-    "coefficients": ([*MODULE, "coefficients", "stratos", "--rider", "rider-a", "--posture", "leaned"], 1.0),
-    "reproduce": ([*MODULE, "reproduce", "--output", "."], 10.0),
+    "--version": (["--version"], 0.25),
+    "--help": (["--help"], 0.25),
+    "list": (["list"], 0.25),
+    "template": (["template", "bicycle"], 0.25),
+    "schema": (["schema", "bicycle"], 0.25),
+    "convert": (["convert", "browser", "out.toml"], 0.25),
+    "coefficients": (["coefficients", "browser", "--rider", "rider-a", "--posture", "upright"], 0.35),
+    "critical-speeds": (["critical-speeds", "benchmark"], 0.35),
+    "reproduce": (["reproduce", "--output", "."], 10.0),
 }
 
 
-@pytest.mark.parametrize("name", COMMANDS)
-def test_command(benchmark: object, name: str, tmp_path: Path) -> None:
-    command, budget = COMMANDS[name]
+def of_children() -> float:
+    """Return the processor seconds that ended children of this process have taken."""
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
 
-    def work() -> None:
+
+@pytest.mark.parametrize("name", COMMANDS)
+def test_command(compare: Any, name: str, tmp_path: Path) -> None:
+    arguments, budget = COMMANDS[name]
+
+    def work(command: list[str]) -> None:
         subprocess.run(command, cwd=tmp_path, check=True, capture_output=True)  # noqa: S603  # our own command
 
-    before = resource.getrusage(resource.RUSAGE_CHILDREN)
-    benchmark.pedantic(work, rounds=3, warmup_rounds=1)  # type: ignore[attr-defined]
-    after = resource.getrusage(resource.RUSAGE_CHILDREN)
-    used = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
-    benchmark.extra_info.update(budget_s=budget, cpu_s_per_run=used / 4)  # type: ignore[attr-defined]
+    compare(
+        lambda: work([*MODULE, *arguments]),
+        lambda: work(NUMPY),
+        names=(f"`singletrack {name}`", "`python -c 'import numpy'`"),
+        target=f"{budget:g} s",
+        pairs=1 if name == "reproduce" else 5,
+        clock=of_children,
+    )

@@ -37,10 +37,18 @@ rider_mass = ["65 kg", "72 kg"]
 """
 
 SHEET = """
+kind = "sheet"
 head_angle = "69 deg"
 fork_offset = "50 mm"
 wheel_size = "37-622"
 wheel_base = "1.10 m"
+
+[[loads]]
+name = "battery"
+on = "rear frame"
+mass = "2.5 kg"
+x = "0.1 m"
+z = "-0.7 m"
 """
 
 COLUMN = """

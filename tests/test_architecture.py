@@ -42,6 +42,7 @@ DOORS = {
     ("singletrack", "importlib"): "public names are loaded on first use: `import singletrack` stays light",
     ("singletrack.linear.eigenvalues", "singletrack.linear.jax_pencil"): "needs jax",
     ("singletrack.linear.eigenvalues", "singletrack.linear.quartic.jax"): "needs jax",
+    ("singletrack.closed_form.many", "singletrack.closed_form.compiled"): "needs numba",
     ("singletrack.linear.quartic.solve", "singletrack.linear.quartic.compiled"): "needs numba",
     ("singletrack.sweep.reading", "singletrack.sweep.checked_zarr"): "needs zarr",
 }

@@ -5,7 +5,7 @@ from __future__ import annotations
 import importlib
 import inspect
 import pkgutil
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -24,6 +24,7 @@ ROOMS = (
     "linear",
     "control",
     "analysis",
+    "certify",
     "multibody",
     "spacar",
     "sweep",
@@ -49,6 +50,21 @@ def pages() -> dict[str, str]:
     told: dict[int, str] = {}
     found = {f"api-{room}.rst": _page(room, told) for room in ROOMS}
     return {"api.rst": _front(told), **found}
+
+
+def public_names() -> set[str]:
+    """Return the full names of all functions and classes that the pages tell, where they are defined."""
+    told: dict[int, str] = {}
+    for room in ROOMS:
+        _page(room, told)
+    _front(told)
+    things = (_thing(full) for full in told.values())
+    return {f"{thing.__module__}.{thing.__qualname__}" for thing in things}
+
+
+def _thing(full: str) -> Any:
+    module, _, name = full.rpartition(".")
+    return getattr(importlib.import_module(module), name)
 
 
 def _front(told: dict[int, str]) -> str:

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from singletrack import PostureError, SingletrackError, load_bicycle, load_rider
 from singletrack.closed_form import coefficients
 from singletrack.closed_form.coefficients import by_arrays
-from singletrack.closed_form.programs import FOLDER, LEAN, program_named, program_of
+from singletrack.closed_form.programs import ASIDE, FOLDER, LEAN, program_named, program_of
 from singletrack.closed_form.single import single_design
 from singletrack.posture import Options
 
@@ -24,7 +24,11 @@ MATRICES = ("M", "C0", "C1", "S0", "K0", "K2")
 
 
 def options_of(name: str, **more: Any) -> Options | None:
-    return None if name == "bicycle" else Options(name.removesuffix(LEAN), torso_lean=name.endswith(LEAN), **more)
+    return (
+        None
+        if name == "bicycle"
+        else Options(name.removesuffix(LEAN).removesuffix(ASIDE), torso_lean=name.endswith(LEAN), **more)
+    )
 
 
 def pair(name: str) -> tuple[Bicycle, Rider | None]:
@@ -53,13 +57,18 @@ def test_a_program_gives_the_matrices_of_the_equations_for_arrays(name: str, see
     bicycle = bicycle.replace(**{key: value * (1 + much * rng.uniform(-1, 1)) for key, value in vary.items()})
     if rng.random() < 0.5:
         bicycle = bicycle.replace(front_tyre_radius=0.02, handlebar_drop=0.03)
+    if name.endswith(ASIDE) and rider is not None:
+        # Either of the two sets the elbows free, or both.
+        width, drop = ((0.45, None), (None, 1.3), (0.5, 1.4))[seed % 3]
+        bicycle, rider = bicycle.replace(handlebar_width=width), rider.replace(elbow_drop_angle=drop)
     options = options_of(name)
     if rider is not None and options is not None:
         rider = rider.replace(
             **{key: value * (1 + 0.5 * much * rng.uniform(-1, 1)) for key, value in rider.values().items()}
         )
         joint = "torso lean" if options.torso_lean else "steer"
-        options = Options(options.posture, torso_lean=options.torso_lean, springs={joint: 3.0}, dampers={"steer": 0.5})
+        sprung = {"springs": {joint: np.float64(3.0)}, "dampers": {"steer": 2}}
+        options = Options(options.posture, torso_lean=options.torso_lean, **sprung)
     single = single_design(bicycle, rider, options or Options())
     try:
         expected = by_arrays(bicycle, rider, options or Options())

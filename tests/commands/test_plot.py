@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+import numpy as np
 import pytest
 
+from singletrack import load_bicycle, load_rider
+from singletrack.analysis.designs import Design
+from singletrack.analysis.family import family
 from singletrack.commands.door import run
-from singletrack.errors import InputError
+from singletrack.errors import InputError, OddityWarning
 
 
 @pytest.mark.parametrize(
@@ -46,3 +50,19 @@ def test_what_is_wrong_is_said_and_nothing_written(arguments, words, tmp_path, m
         run(["plot", *arguments])
     assert words in str(caught.value)
     assert list(tmp_path.iterdir()) == []
+
+
+def test_why_designs_of_a_family_cannot_exist_is_said(tmp_path):
+    """Of each cause how many, from where, and the first reason."""
+    over = ["--over", "handlebar_length=-300mm:300mm:9", "-o", str(tmp_path / "figure.svg")]
+    for kind, count in (("family", 9), ("axis", 161), ("map", 161)):
+        with pytest.warns(OddityWarning, match=rf"of {count} values.*from -300 mm on, the shoulder-grip distance is"):
+            assert run(["plot", "stratos", "--rider", "rider-a", *over, "--as", kind]) == 0
+
+
+def test_a_family_tells_which_value_has_which_reason():
+    design = Design.of(load_bicycle("stratos"), load_rider("rider-a"), "leaned")
+    found = family(design, "fork_length", np.array([0.02, 0.35, 0.40]))
+    assert [(number, value) for number, value, _ in found.lost()] == [(1, 0.02)]
+    assert "fork_length" in found.lost()[0][2]
+    assert family(design, "trail", np.array([0.05, 0.06])).lost() == []

@@ -22,7 +22,7 @@ SCRIPTS = sorted(GALLERY.glob("plot_*.py"))
 SUBJECTS = {
     "figure_4b", "my_bicycle", "pendulums", "own_posture", "torso_lean", "controllability", "effort", "sensitivity",
     "trail_and_head_angle", "city_bicycle", "steady_turn", "fall", "four_bar", "soft_fork", "a_million_designs",
-    "geometry_sheet", "compare", "measured_weave",
+    "geometry_sheet", "compare", "measured_weave", "certificates",
 }  # fmt: skip
 
 

@@ -53,11 +53,12 @@ def places(root: Path, package: str, part: str = "") -> list[Place]:
 
 
 def drawn(all_places: list[Place], sample: int, seed: int) -> list[Place]:
-    """Return a seeded sample of places, in their order; all of them where 0 or more than there are is asked for."""
-    if not sample or sample >= len(all_places):
-        return all_places
-    chosen = random.Random(seed).sample(range(len(all_places)), sample)
-    return [all_places[index] for index in sorted(chosen)]
+    """Return a seeded sample of places, in the order in which they are drawn: the first of them are a sample, too.
+
+    All of them where 0 or more than there are is asked for.
+    """
+    count = len(all_places) if not sample else min(sample, len(all_places))
+    return random.Random(seed).sample(all_places, count)
 
 
 def mutant(root: Path, place: Place) -> dict[str, Any]:

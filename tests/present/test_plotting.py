@@ -87,6 +87,22 @@ def test_more_freedoms_and_many_designs():
     assert_clear(figure)
 
 
+@pytest.mark.parametrize(
+    ("name", "posture", "spring", "width"),
+    [("stratos", "leaned", 0.0, 84.0), ("browser", "upright", 300.0, 60.0), ("stratos", "leaned", 100.0, 84.0)],
+)
+def test_every_mode_is_named_beside_its_curve_in_narrow_figures(name, posture, spring, width):
+    """With a torso that leans too: no legend is needed to tell castering."""
+    rider = load_rider("rider-a")
+    springs = {"torso lean": spring} if spring else {}
+    model = coefficients(load_bicycle(name), rider, posture, torso_lean=True, springs=springs)
+    figure = single_figure(drawn(model), width)
+    assert_clear(figure)
+    assert figure.legends == []
+    named = {word[3:] for word, _ in words_of(figure) if word.startswith(("Re ", "Im "))}
+    assert {"castering", "capsize", "torso lean", "weave"} <= named
+
+
 def test_lines_are_told_apart_in_grey_and_by_dashes():
     assert len({str(dashes) for _, dashes in LINES}) == len(LINES)
     assert len({colour for colour, _ in LINES}) == len(LINES)

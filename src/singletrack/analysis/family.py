@@ -40,6 +40,18 @@ class Family:
     values: np.ndarray
     model: LinearModel
 
+    def lost(self) -> list[tuple[int, float, str]]:
+        """Return why designs cannot exist: of each cause how many it hits, the value of the first, the reason."""
+        found: list[tuple[int, float, str]] = []
+        open_still = ~np.asarray(self.model.valid)
+        for fault in self.model.faults:
+            bad = np.broadcast_to(np.asarray(fault.bad), self.values.shape) & open_still
+            if bad.any():
+                first = int(np.argmax(bad))
+                found.append((int(bad.sum()), float(self.values[first]), fault.reason((first,))))
+                open_still = open_still & ~bad
+        return found
+
     def modes(self, speeds: Array) -> Modes:
         """Return the modes of all designs at speeds (k,) in m/s; eigenvalues of shape (m, k, 2 n)."""
         return modes(self.model, speeds)

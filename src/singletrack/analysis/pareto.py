@@ -44,6 +44,7 @@ def worth(problem: Problem, aim: Aim, x: np.ndarray) -> float:
     problem : Problem
     aim : Aim
     x : array, shape (k,)
+        Share of the way from each lower bound to the upper, 0 to 1.
     """
     return float(aim(derivatives_of(problem.at(x), problem.names))[0].max())
 

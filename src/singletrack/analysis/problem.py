@@ -73,6 +73,7 @@ class Problem:
         Parameters
         ----------
         x : array, shape (k,)
+            Share of the way from each lower bound to the upper.
         """
         low, high = np.array(list(self.bounds.values())).T
         return self.design.changed(dict(zip(self.names, (low + x * (high - low)).tolist(), strict=True)))

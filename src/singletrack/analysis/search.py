@@ -10,6 +10,7 @@ from scipy.optimize import minimize, nnls
 from scipy.stats import qmc
 
 from singletrack.analysis.derivatives import derivatives_of
+from singletrack.analysis.kinks import descended
 from singletrack.analysis.problem import Found, Problem
 from singletrack.analysis.quantities import quantities_with_gradients
 from singletrack.errors import InputError, SingletrackError
@@ -23,7 +24,7 @@ __all__ = ["search"]
 _IMPOSSIBLE = 1e6  # worth of a design that cannot exist
 _SCREENED = 12  # designs looked at for each start
 _AT_BOUND = 1e-5  # of the range
-_ROUNDS, _BESIDE, _SMOOTH = 2, 0.05, 1e-4  # searches beside where one ended, how far beside, and where not
+_ROUNDS, _BESIDE, _SMOOTH = 3, 0.1, 1e-4  # searches beside where one ended, how far beside, and where not
 _MOST = 100  # numbers of an aim that are looked at, the largest
 
 
@@ -97,7 +98,8 @@ def search(
     tell : callable, optional
         Called with each result as it comes.
     first : array, shape (k,), optional
-        Where the first search starts instead of from the design as it is.
+        Where the first search starts instead of from the design as it is: share of the way from each lower bound to
+        the upper.
 
     Notes
     -----
@@ -135,9 +137,10 @@ def _worth(aim: np.ndarray, constraints: np.ndarray) -> float:
 
 
 def _from(problem: Problem, evaluation: _Evaluation, start: np.ndarray) -> Found:
-    """Search from one start, and again from beside where it ended for as long as that is no smooth optimum.
+    """Search from one start, and on by gradients from around where it ended if that is no smooth optimum.
 
-    Where roots meet, growth has a kink that no gradient tells of; a search that starts beside it goes along it.
+    Where roots meet, growth has a kink that no single gradient tells of (:mod:`singletrack.analysis.kinks`); a search
+    that starts beside it may go along it.
     """
     x = _minimised(evaluation, start)
     if not np.isfinite(x).all() or _worth(*evaluation.at(x)) > _worth(*evaluation.at(start)):
@@ -145,13 +148,34 @@ def _from(problem: Problem, evaluation: _Evaluation, start: np.ndarray) -> Found
     found = _ended(problem, evaluation, x)
     rng = np.random.default_rng(0)
     for around in range(_ROUNDS):
-        if found.stationary < _SMOOTH * max(1.0, abs(found.value)):
+        if not _is_kink(found):
             break
-        beside = np.clip(found.x + _BESIDE * 0.5**around * rng.standard_normal(len(start)), 0.0, 1.0)
-        x = _minimised(evaluation, beside)
-        if np.isfinite(x).all() and _worth(*evaluation.at(x)) < _worth(*evaluation.at(found.x)):
-            found = _ended(problem, evaluation, x)
+        for place in (found.x, _minimised(evaluation, _beside(rng, found.x, around))):
+            better = descended(lambda point: _slope(evaluation, point), place) if np.isfinite(place).all() else found.x
+            if _worth(*evaluation.at(better)) < _worth(*evaluation.at(found.x)):
+                found = _ended(problem, evaluation, better)
     return found
+
+
+def _beside(rng: np.random.Generator, x: np.ndarray, around: int) -> np.ndarray:
+    """Return a place beside one, nearer in each round (``around``)."""
+    place: np.ndarray = np.clip(x + _BESIDE * 0.5**around * rng.standard_normal(len(x)), 0.0, 1.0)
+    return place
+
+
+def _is_kink(found: Found) -> bool:
+    """Tell whether a search ended where the gradients of what binds do not make up that of the aim."""
+    return not found.stationary < _SMOOTH * max(1.0, abs(found.value))
+
+
+def _slope(evaluation: _Evaluation, x: np.ndarray) -> tuple[float, np.ndarray]:
+    """Return the worth of a design and its gradient (k,): of the aim's largest number and of constraints broken."""
+    aim, constraints = evaluation.at(x)
+    row = aim[int(np.argmax(aim[:, 0])), 1:]
+    if aim[:, 0].max() >= _IMPOSSIBLE:
+        return np.inf, np.zeros(len(x))
+    broken = constraints[constraints[:, 0] < 0]
+    return _worth(aim, constraints), row - 100.0 * broken[:, 1:].sum(axis=0)
 
 
 def _minimised(evaluation: _Evaluation, start: np.ndarray) -> np.ndarray:

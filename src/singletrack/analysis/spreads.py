@@ -110,7 +110,7 @@ def covariance_root(covariance: np.ndarray) -> np.ndarray:
     Parameters
     ----------
     covariance : array, shape (k, k)
-        Symmetric, without negative eigenvalues.
+        Symmetric, without negative eigenvalues; in products of the parameters' units.
     """
     scale = np.sqrt(np.diag(covariance))
     safe = np.where(scale > 0, scale, 1.0)

@@ -149,8 +149,8 @@ def linear_uncertainty(
     options : Options or str
         How the rider sits, or a posture's name.
     covariance : (names, array of shape (k, k)), optional
-        Covariance of parameters that correlate (:class:`singletrack.measuring.measurement.Measurement` has it); the
-        standard deviations of other parameters stay in force. Without it, parameters are independent.
+        Covariance of parameters that correlate, in SI units (:class:`singletrack.measuring.measurement.Measurement` has
+        it); the standard deviations of other parameters stay in force. Without it, parameters are independent.
 
     Raises
     ------

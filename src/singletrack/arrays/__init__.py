@@ -12,6 +12,7 @@ from singletrack.arrays.namespace import (
     require_double,
 )
 from singletrack.arrays.steps import complex_allowed, complex_steps
+from singletrack.arrays.stretches import in_stretches, part_of, single_thread, stretches, threads
 from singletrack.arrays.vectors import cross, dot, matvec, skew, stack, unit_vector, vector
 
 __all__ = [
@@ -24,14 +25,19 @@ __all__ = [
     "complex_steps",
     "cross",
     "dot",
+    "in_stretches",
     "is_concrete",
     "is_jax",
     "matvec",
     "namespace",
+    "part_of",
     "refuse_single",
     "require_double",
+    "single_thread",
     "skew",
     "stack",
+    "stretches",
+    "threads",
     "unit_vector",
     "valid_mask",
     "vector",

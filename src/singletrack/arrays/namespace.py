@@ -57,7 +57,7 @@ def require_double(value: Array) -> None:
     Parameters
     ----------
     value : array, shape (...)
-        The result.
+        The result, of any unit.
 
     Raises
     ------
@@ -72,12 +72,12 @@ def require_double(value: Array) -> None:
 
 
 def is_concrete(value: Number) -> bool:
-    """Tell whether a value can be looked at now (a JAX tracer cannot): a number, or an array (...)."""
+    """Tell whether a value can be looked at now (a JAX tracer cannot): a number, or an array (...), of any unit."""
     return not any(cls.__name__ == "Tracer" for cls in type(value).__mro__)
 
 
 def as_arrays(*values: ArrayLike) -> tuple[Any, tuple[Array, ...]]:
-    """Return the namespace of the values, and the values as arrays of floating-point (or complex) numbers.
+    """Return the namespace of values of any units, and the values as arrays of floating-point (or complex) numbers.
 
     Parameters
     ----------

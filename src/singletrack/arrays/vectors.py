@@ -14,7 +14,7 @@ __all__ = ["cross", "dot", "matvec", "skew", "stack", "unit_vector", "vector"]
 
 
 def vector(*components: Number) -> Array:
-    """Stack components of any broadcastable shapes into vectors, shape (..., n).
+    """Stack components of any broadcastable shapes into vectors, shape (..., n), of any unit.
 
     >>> vector(1.0, 0.0, 2.0).tolist()
     [1.0, 0.0, 2.0]
@@ -28,6 +28,7 @@ def stack(arrays: Sequence[Number], axis: int) -> Array:
     Parameters
     ----------
     arrays : sequence of array, shape (...)
+        Of any unit.
     axis : int
         Where the new axis stands in the result: -1 for the last.
     """
@@ -65,14 +66,14 @@ def _first_to(dimensions: int, place: int) -> tuple[int, ...]:
 
 
 def cross(a: Array, b: Array) -> Array:
-    """Return the cross product of vectors of shape (..., 3), with broadcasting."""
+    """Return the cross product of vectors a, b of shape (..., 3) and any units, with broadcasting."""
     ax, ay, az = a[..., 0], a[..., 1], a[..., 2]
     bx, by, bz = b[..., 0], b[..., 1], b[..., 2]
     return vector(ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx)
 
 
 def dot(a: Array, b: Array) -> Array:
-    """Return the inner product of vectors of shape (..., 3) (no complex conjugate), with broadcasting."""
+    """Return the inner product (no complex conjugate) of vectors a, b of shape (..., 3) and any units."""
     return a[..., 0] * b[..., 0] + a[..., 1] * b[..., 1] + a[..., 2] * b[..., 2]
 
 
@@ -89,7 +90,7 @@ def matvec(matrix: Array, vec: Array) -> Array:
 
 
 def unit_vector(vec: Array) -> Array:
-    """Return vectors of shape (..., n) scaled to length one."""
+    """Return vectors of shape (..., n), of any unit, scaled to length one."""
     xp = namespace(vec)
     return vec / xp.sqrt(dot(vec, vec))[..., None]
 
@@ -100,7 +101,7 @@ def skew(vec: Array) -> Array:
     Parameters
     ----------
     vec : array, shape (..., 3)
-        The vector a.
+        The vector a, of any unit.
     """
     x, y, z = vec[..., 0], vec[..., 1], vec[..., 2]
     zero = 0.0 * x

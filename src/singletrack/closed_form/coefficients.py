@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import dataclasses
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from singletrack.arrays import Array, as_arrays, is_concrete, refuse_single, require_double
+from singletrack.closed_form.batches import batch_shape, in_parts
 from singletrack.closed_form.flexible import flexible_matrices, hinge_laws
+from singletrack.closed_form.many import many_designs
 from singletrack.closed_form.round_tyres import has_round_tyres, load_of_rider, on_round_tyres
 from singletrack.closed_form.single import single_design
 from singletrack.closed_form.slaved import slaved_matrices
@@ -67,7 +70,12 @@ def coefficients(bicycle: Bicycle, rider: Rider | None = None, options: Options 
     """
     options = Options.of(options)
     single = single_design(bicycle, rider, options)
-    return by_arrays(bicycle, rider, options) if single is None else single.model
+    if single is not None:
+        return single.model
+    shape = batch_shape(bicycle, rider, options)
+    if shape is None:
+        return by_arrays(bicycle, rider, options)
+    return in_parts(partial(many_designs, by_arrays), bicycle, rider, options, shape)
 
 
 @np.errstate(all="ignore")  # sound designs overflow nowhere; faulty ones of a batch are flagged, and NaN

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from math import pi
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -11,7 +12,7 @@ import jax.numpy as jnp
 import numpy as np
 
 from singletrack.closed_form.coefficients import by_arrays
-from singletrack.closed_form.programs import FOLDER, LEAN, MATRICES, RIDERLESS
+from singletrack.closed_form.programs import ASIDE, FOLDER, LEAN, MATRICES, RIDERLESS
 from singletrack.closed_form.round_tyres import load_of_rider
 from singletrack.library import load_bicycle, load_rider
 from singletrack.parameters.bicycle import FRAME_GEOMETRY
@@ -35,6 +36,8 @@ _POSTURES = {
     "leaned-bent-abduction": "stratos",
     "leaned-bent-axial": "stratos",
 }
+#: Those of them that have one for elbows aside.
+_ELBOWS_ASIDE = ("rigid", "upright-axial", "leaned-straight-abduction")
 
 
 def structures() -> dict[str, Options | None]:
@@ -48,6 +51,8 @@ def structures() -> dict[str, Options | None]:
     found: dict[str, Options | None] = {RIDERLESS: None}
     for posture in _POSTURES:
         found[posture], found[posture + LEAN] = Options(posture), Options(posture, torso_lean=True)
+    for posture in _ELBOWS_ASIDE:
+        found[posture + ASIDE] = Options(posture)
     return found
 
 
@@ -65,7 +70,7 @@ def program_text(name: str) -> str:
     'def program(wheel_base, trail, steer'
     """
     options = structures()[name]
-    bicycle, rider = _nominal(_POSTURES.get(name.removesuffix(LEAN), "benchmark"), options)
+    bicycle, rider = _nominal(name, options)
     values = bicycle.values() if rider is None else bicycle.values() | rider.values()
     config: Any = jax.config
     before = config.jax_enable_x64
@@ -89,12 +94,17 @@ def _inputs(graph: Any, outputs: list[np.ndarray]) -> list[int]:
 
 def _nominal(name: str, options: Options | None) -> tuple[Bicycle, Rider | None]:
     """Return the design at which pivots are chosen, with nothing left to be derived."""
-    bicycle = load_bicycle(name)
+    bicycle = load_bicycle(_POSTURES.get(name.removesuffix(LEAN).removesuffix(ASIDE), "benchmark"))
     if options is None:
         return bicycle.replace(**dict.fromkeys(FRAME_GEOMETRY)), None
     rider = load_rider("rider-a").on(bicycle)
     width, thickness = rider.torso_section
-    return bicycle.replace(handlebar_drop=0.0), rider.replace(torso_width=width, torso_thickness=thickness)
+    bicycle = bicycle.replace(handlebar_drop=0.0)
+    rider = rider.replace(torso_width=width, torso_thickness=thickness)
+    if name.endswith(ASIDE):
+        bicycle = bicycle.replace(handlebar_width=rider.shoulder_to_shoulder)
+        rider = rider.replace(elbow_drop_angle=pi / 3)
+    return bicycle, rider
 
 
 def _equations(bicycle: Bicycle, rider: Rider | None, options: Options | None) -> Callable[[Any], tuple[Any, ...]]:

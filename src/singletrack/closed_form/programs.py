@@ -24,14 +24,15 @@ from singletrack.posture import Mechanism, Options, file_of_posture, shipped_ali
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-__all__ = ["FOLDER", "LEAN", "MATRICES", "RIDERLESS", "Program", "program_named", "program_of"]
+__all__ = ["ASIDE", "FOLDER", "LEAN", "MATRICES", "RIDERLESS", "Program", "program_named", "program_of", "values_of"]
 
 FOLDER = Path(__file__).parents[1] / "data" / "programs"
 #: What a program returns first, n x n entries each; with a rider follow his load
 #: (:func:`~singletrack.closed_form.round_tyres.load_of_rider`) and the :class:`~singletrack.posture.Margins`.
 MATRICES = ("M", "C1", "K0", "K2")
-#: Names of structures: a bicycle alone, and what is added to a posture's file for a torso that may lean.
-RIDERLESS, LEAN = "bicycle", "-torso-lean"
+#: Names of structures: a bicycle alone, and what is added to a posture's file for elbows that need not hang in the
+#: plane of their shoulder (a handlebar of a given width, an elbow drop angle), and for a torso that may lean.
+RIDERLESS, ASIDE, LEAN = "bicycle", "-elbows-aside", "-torso-lean"
 #: Parameters that, given, make another structure.
 _SOFT = ("frame_torsion_stiffness", "fork_bending_stiffness")
 _geometry = itemgetter(*FRAME_GEOMETRY)
@@ -95,20 +96,53 @@ def program_of(bicycle: Bicycle, rider: Rider | None, options: Options) -> Progr
     ('upright-axial', 2, ('wheel_base', 'trail'))
     """
     own = bicycle.__dict__
-    for name in _SOFT:
-        if own[name] is not None:
-            return None
+    if any(own[stiffness] is not None for stiffness in _SOFT):
+        return None
     if rider is None:
         return program_named(RIDERLESS)
-    if (
-        None in _geometry(own)
-        or own["handlebar_width"] is not None
-        or rider.elbow_drop_angle is not None
-        or rider.shapes
-    ):
+    if rider.shapes or any(value is None for value in _geometry(own)):
         return None
     name = None if options.fit is not None else _file_of(options)
-    return None if name is None else program_named(name + LEAN if options.torso_lean else name)
+    if name is None:
+        return None
+    aside = own["handlebar_width"] is not None or rider.elbow_drop_angle is not None
+    return program_named("".join((name, ASIDE if aside else "", LEAN if options.torso_lean else "")))
+
+
+def values_of(program: Program, bicycle: Bicycle, rider: Rider | None) -> tuple[Any, ...]:
+    """Return the values that a program takes, each of a shape (...) of its own; None where one is missing.
+
+    Parameters
+    ----------
+    program : Program
+    bicycle : Bicycle
+    rider : Rider, optional
+
+    Examples
+    --------
+    >>> from singletrack import load_bicycle
+    >>> values_of(program_named("bicycle"), load_bicycle("benchmark"), None)[:2]
+    (1.02, 0.08)
+    """
+    own: dict[str, Any] = bicycle.__dict__
+    if rider is not None:
+        own = {**own, **rider.__dict__}
+        own["torso_width"], own["torso_thickness"] = rider.torso_section
+        for parameter, usual in (
+            ("forward_lean_angle", rider.forward_lean_angles.get(bicycle.name)),
+            ("handlebar_drop", 0.0),
+            ("handlebar_width", own["shoulder_to_shoulder"]),
+            ("elbow_drop_angle", math.pi / 2),
+        ):
+            if own[parameter] is None:
+                own[parameter] = usual
+    found: tuple[Any, ...] = _reader(program)(own)
+    return found
+
+
+@functools.cache
+def _reader(program: Program) -> Callable[[dict[str, Any]], tuple[Any, ...]]:
+    return itemgetter(*program.of_bicycle, *program.of_rider)
 
 
 def _file_of(options: Options) -> str | None:

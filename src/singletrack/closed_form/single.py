@@ -8,32 +8,27 @@ from __future__ import annotations
 import functools
 from dataclasses import dataclass
 from math import isfinite, pi, sqrt
-from operator import itemgetter
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from singletrack.closed_form.programs import MATRICES, program_of
+from singletrack.closed_form.programs import MATRICES, program_of, values_of
 from singletrack.closed_form.round_tyres import on_round_tyres
+from singletrack.closed_form.soundness import CONDITION, DEFINITE, INERTIA, REACH, RESIDUAL
 from singletrack.model import COORDINATES, INPUTS, LinearModel
 from singletrack.posture import STEER, TORSO_LEAN, Margins, Options, input_name
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping, Sequence
+    from collections.abc import Callable, Sequence
 
     from singletrack.arrays import Array
     from singletrack.closed_form.programs import Program
     from singletrack.parameters import Bicycle, Rider
 
-__all__ = ["Single", "single_design"]
+__all__ = ["NAMES", "Single", "single_design"]
 
-#: Well within what the equations for arrays let pass: limbs' reach, residual and condition of loops, inertia of a free
-#: joint, mass matrix.
-_REACH = 1e-9
-_RESIDUAL, _CONDITION, _INERTIA = 1e-12, 1e8, 1e-9
-_DEFINITE = 1e-6
 #: Coordinates and inputs by their number.
-_NAMES = {2: (COORDINATES, INPUTS), 3: ((*COORDINATES, TORSO_LEAN), (*INPUTS, input_name(TORSO_LEAN)))}
+NAMES = {2: (COORDINATES, INPUTS), 3: ((*COORDINATES, TORSO_LEAN), (*INPUTS, input_name(TORSO_LEAN)))}
 _WRONG = (ValueError, ZeroDivisionError, OverflowError)
 
 
@@ -89,7 +84,7 @@ def single_design(bicycle: Bicycle, rider: Rider | None, options: Options) -> Si
         if not _sits(found[size + 2 :], rider):
             return None
     M, C1, K0, K2 = np.array(found[: len(MATRICES) * n * n]).reshape(-1, n, n)
-    names, (C0, S0) = _NAMES[n], laws
+    names, (C0, S0) = NAMES[n], laws
     model = LinearModel(M, C1, K0, K2, bicycle.gravity, C0=C0, S0=S0, coordinates=names[0], inputs=names[1])
     return Single(on_round_tyres(model, bicycle, load), seated)
 
@@ -103,24 +98,13 @@ def _function(program: Program) -> Callable[..., tuple[float, ...]]:
     return program.function()
 
 
-@functools.cache
-def _reader(program: Program) -> Callable[[Mapping[str, Any]], tuple[Any, ...]]:
-    return itemgetter(*program.of_bicycle, *program.of_rider)
-
-
 def _values(program: Program, bicycle: Bicycle, rider: Rider | None) -> tuple[float, ...] | None:
-    """Return the values that a program takes, or None if one is missing."""
-    own: dict[str, Any] = bicycle.__dict__
-    if rider is not None:
-        width, thickness = rider.torso_section
-        lean = rider.forward_lean_angle
-        if lean is None:
-            lean = rider.forward_lean_angles.get(bicycle.name)
-            lean = lean if type(lean) is float and 0 < lean < pi / 2 else None
-        drop = bicycle.handlebar_drop
-        own = {**own, **rider.__dict__, "torso_width": width, "torso_thickness": thickness, "forward_lean_angle": lean}
-        own["handlebar_drop"] = 0.0 if drop is None else drop
-    found = _reader(program)(own)
+    """Return the values that a program takes, or None if one is missing, or the lean angle none."""
+    found = values_of(program, bicycle, rider)
+    if rider is not None and rider.forward_lean_angle is None:  # an angle of the rider's list is not checked yet
+        lean = rider.forward_lean_angles.get(bicycle.name)
+        if not (isinstance(lean, float) and 0 < lean < pi / 2):
+            return None
     return None if None in found else found
 
 
@@ -130,7 +114,7 @@ def _laws(options: Options, freedoms: int) -> tuple[Array, Array] | None:
     for matrix, amounts in zip(found, (options.dampers, options.springs), strict=True):
         for name, amount in amounts.items():
             place = 1 if name == STEER else 2
-            if name not in (STEER, TORSO_LEAN) or place >= freedoms or type(amount) is not float:
+            if name not in (STEER, TORSO_LEAN) or place >= freedoms or not isinstance(amount, int | float):
                 return None
             matrix[place, place] = amount
     return found[0], found[1]
@@ -140,13 +124,13 @@ def _sits(margins: Sequence[float], rider: Rider) -> bool:
     """Tell whether limbs reach and fold and the arms follow the steer, with room to spare; margins as they stand."""
     arm, leg, residual, condition, inertia = margins
     own = rider.__dict__
-    if not (residual < _RESIDUAL and condition < _CONDITION and inertia > _INERTIA):
+    if not (residual < RESIDUAL and condition < CONDITION and inertia > INERTIA):
         return False
     for share, upper, lower in (
         (arm, own["upper_arm_length"], own["lower_arm_length"]),
         (leg, own["upper_leg_length"], own["lower_leg_length"]),
     ):
-        if not (share < 1 - _REACH and share * (upper + lower) > abs(upper - lower) + _REACH):
+        if not (share < 1 - REACH and share * (upper + lower) > abs(upper - lower) + REACH):
             return False
     return True
 
@@ -158,8 +142,8 @@ def _definite(entries: tuple[float, ...], n: int) -> bool:
         return False
     a = entries[1] / sqrt(diagonal[0] * diagonal[1])
     if n == 2:
-        return abs(a) < 1 - _DEFINITE
+        return abs(a) < 1 - DEFINITE
     b = entries[2] / sqrt(diagonal[0] * diagonal[2])
     c = entries[5] / sqrt(diagonal[1] * diagonal[2])
     # Leading minors of M scaled to a unit diagonal; its least eigenvalue is at least 4/9 of the last one.
-    return abs(a) < 1 - _DEFINITE and 1 + 2 * a * b * c - a * a - b * b - c * c > _DEFINITE
+    return abs(a) < 1 - DEFINITE and 1 + 2 * a * b * c - a * a - b * b - c * c > DEFINITE

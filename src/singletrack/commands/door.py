@@ -101,7 +101,9 @@ def command(name: str) -> Any:
 
 
 def _unasked_for(option: Any) -> Any:
-    """Return an option that does nothing where it is not given."""
+    """Return an option that does nothing where it is not given; None where there is none."""
+    if option is None:
+        return None
     convert = type(option).process_value
 
     def process(ctx: Any, value: Any) -> Any:

@@ -30,7 +30,7 @@ from singletrack.files.speeds import parse_speeds
 from singletrack.linear import critical_speeds, modes
 from singletrack.present.maps import map_figure, parameter_figure
 from singletrack.present.plotting import Drawn, overlay_figure, single_figure
-from singletrack.present.words import KILOMETRES, METRES
+from singletrack.present.words import KILOMETRES, METRES, SpeedUnit
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -88,19 +88,36 @@ def run(
         deliver_figure(_eigenvalues(drawn, look | {"unit": unit, "limit": limit}), output)
         return
     design = _only(made, options, bands=bands)
+    figure = _varied(design, over, kind, at, ends, look, unit, limit)
+    deliver_figure(figure, output)
+
+
+def _varied(
+    design: Design,
+    over: str,
+    kind: OverKind,
+    at: str,
+    ends: tuple[float, float],
+    look: dict[str, Any],
+    unit: SpeedUnit,
+    limit: float,
+) -> Figure:
+    """Return the figure of a parameter that varies."""
     name, values = parse_over(design, over)
     label, factor = axis_label(design, name)
     if kind is OverKind.map:
         rows = np.linspace(values[0], values[-1], max(_ROWS, len(values)))
         found = stability_map(design, name, rows)
-        figure = map_figure(found, factor, label, ends[1], **look, unit=unit)
-    elif kind is OverKind.axis:
+        _say_lost(family(design, name, rows), label, factor)
+        return map_figure(found, factor, label, ends[1], **look, unit=unit)
+    if kind is OverKind.axis:
         rows = np.linspace(values[0], values[-1], max(_ROWS, len(values)))
-        branch = family(design, name, rows).modes(parse_speeds(at, "--at")[:1])
-        figure = parameter_figure(rows * factor, branch, label, **look, limit=limit)
-    else:
-        figure = _family(family(design, name, values), np.linspace(*ends, _FINE), label, factor, look, unit, limit)
-    deliver_figure(figure, output)
+        along = family(design, name, rows)
+        _say_lost(along, label, factor)
+        return parameter_figure(rows * factor, along.modes(parse_speeds(at, "--at")[:1]), label, **look, limit=limit)
+    some = family(design, name, values)
+    _say_lost(some, label, factor)
+    return _family(some, np.linspace(*ends, _FINE), label, factor, look, unit, limit)
 
 
 def _ends(text: str) -> tuple[float, float]:
@@ -141,13 +158,22 @@ def _only(made: list[Made], options: ModelOptions, *, bands: bool) -> Design:
     return Design.of(one.bicycle, one.rider, options.sitting, one.title)
 
 
+def _say_lost(found: Family, label: str, factor: float) -> None:
+    """Warn of designs that cannot exist: how many, and the first reason of each cause."""
+    name, _, bracket = label.partition(" (")
+    lost = found.lost()
+    if not lost:
+        return
+    count = sum(number for number, _, _ in lost)
+    words = [f"{number} from {value * factor:.4g} {bracket[:-1]} on, {reason}" for number, value, reason in lost]
+    text = f"{count} of {len(found.values)} values of {name} make no design that can exist; they are left out: "
+    warnings.warn(text + "; ".join(words), OddityWarning, stacklevel=3)
+
+
 def _family(
     found: Family, speeds: np.ndarray, label: str, factor: float, look: dict[str, Any], unit: Any, limit: float
 ) -> Figure:
     good = found.model.valid
-    if not good.all():
-        left = f"{(~good).sum()} of {len(good)} values of {found.name} make no design that can exist; they are left out"
-        warnings.warn(left, OddityWarning, stacklevel=2)
     values, kept = found.values[good] * factor, [found.model[int(i)] for i in np.flatnonzero(good)]
     name, _, bracket = label.partition(" (")
     words = [f"{name} {value:.4g} {bracket[:-1]}" for value in values]

@@ -122,6 +122,8 @@ def _at_speed(system: StateSpace, input_name: str, weights: Weights) -> tuple[fl
     b = system.B[:, [system.inputs.index(input_name)]]
     start = _push(system)
     energy = least_energy(system.A, b, start)
+    if not np.isfinite(energy):  # an unstable mode that the input does not reach: no feedback holds it
+        return energy, np.inf, np.inf, np.inf
     try:
         gain, cost = feedback_gain(system.A, b, weights)
     except np.linalg.LinAlgError:
@@ -135,13 +137,16 @@ def _at_speed(system: StateSpace, input_name: str, weights: Weights) -> tuple[fl
 
 
 def least_energy(A: np.ndarray, b: np.ndarray, start: np.ndarray) -> float:
-    """Return the least ∫u² dt that brings a system back to rest from a state; infinite if it cannot be done.
+    """Return the least ∫u² dt that brings a system back to rest from a state, in its units; infinite if it cannot be.
 
     Parameters
     ----------
     A : array, shape (N, N)
+        In 1/s and whatever units the states have.
     b : array, shape (N, m)
+        In units of the states for each of the input, 1/s.
     start : array, shape (N,)
+        In units of the states.
 
     Notes
     -----

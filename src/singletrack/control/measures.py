@@ -8,7 +8,7 @@ import numpy as np
 import scipy.linalg
 import scipy.optimize
 
-from singletrack.errors import InputError
+from singletrack.errors import InputError, unknown_name
 from singletrack.linear import modes, state_space
 
 if TYPE_CHECKING:
@@ -105,7 +105,7 @@ def distance_to_uncontrollability(system: StateSpace, input_name: str) -> float:
     """
     if system.A.ndim != 2:
         raise InputError(f"systems of shape {system.A.shape[:-2]}: the distance takes a single one")
-    b = system.B[:, system.inputs.index(input_name)]
+    b = system.B[:, _place(system, input_name)]
 
     def least(s: np.ndarray) -> float:
         shifted = system.A - (s[0] + 1j * s[1]) * np.eye(len(b))
@@ -152,7 +152,7 @@ def gramian(system: StateSpace, input_name: str) -> np.ndarray:
     """
     if system.A.ndim != 2:
         raise InputError(f"systems of shape {system.A.shape[:-2]}: the Gramian takes a single one")
-    b = system.B[:, [system.inputs.index(input_name)]]
+    b = system.B[:, [_place(system, input_name)]]
     roots = np.linalg.eigvals(system.A)
     if (np.abs(roots.real) <= 1e-10 * np.abs(roots).max()).any():
         raise InputError("a root lies on the imaginary axis: the Gramian is endless")
@@ -183,3 +183,9 @@ def invariant_part(A: np.ndarray, b: np.ndarray, *, stable: bool) -> tuple[np.nd
     own, left = basis[:, :count], left_basis[:, :count]
     on = np.linalg.solve(left.T @ own, left.T @ b)
     return own, form[:count, :count], on
+
+
+def _place(system: StateSpace, input_name: str) -> int:
+    if input_name not in system.inputs:
+        raise InputError(unknown_name("input", input_name, system.inputs))
+    return system.inputs.index(input_name)

@@ -84,9 +84,9 @@ class NamedValues:
         Parameters
         ----------
         expected : mapping of str to float
-            What follows, by name.
+            What follows, by name, SI.
         relative, absolute : float
-            How far a value may be off: they are rounded.
+            How far a value may be off, as a share of it and in its unit: they are rounded.
         """
         for name, value in expected.items():
             if name in self.quantities:

@@ -112,7 +112,7 @@ def _body(p: Mapping[str, float], letter: str) -> PlanarBody:
 
 
 def principal_values(bicycle: Bicycle) -> dict[str, float]:
-    """Return a bicycle as a principal set: to the digit as it was read, if it was; else all mass in D, no rider.
+    """Return a bicycle as a principal set: to the digit as it was read, if it was; else all mass in D, no rider; SI.
 
     Examples
     --------

@@ -65,6 +65,7 @@ def format_number(value: float, deviation: float | None = None, separator: str =
     Parameters
     ----------
     value, deviation : float
+        Of any unit.
     separator : str
         Between them.
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from singletrack.files.registry import FORMATS
+from singletrack.files import registry
 from singletrack.library.load import descriptions
 
 __all__ = ["listing"]
@@ -21,4 +21,4 @@ def listing() -> list[str]:
         found = descriptions(kind)
         width = max(16, *(len(name) + 2 for name in found))
         lines += [f"{kind}s", *(f"  {name:<{width}}{text}" for name, text in found.items())]
-    return [*lines, "formats", *(f"  {each.name:<16}{each.summary()}" for each in FORMATS)]
+    return [*lines, "formats", *(f"  {each.name:<16}{each.summary()}" for each in registry.FORMATS)]

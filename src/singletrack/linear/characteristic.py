@@ -66,6 +66,10 @@ class CharacteristicPolynomial:
             e[..., :1] + (e[..., 1:2] + e[..., 2:] * u) * u,
         )
 
+    def ratios(self) -> np.ndarray:
+        """Return the coefficients over the first, (8, m) for designs (m,), as :func:`.quartic.kernel.monic` takes."""
+        return np.ascontiguousarray((np.concatenate([self.a3, self.a2, self.a1, self.a0], axis=-1) / self.a4).T)
+
     def rows(self, which: Any) -> CharacteristicPolynomial:
         """Return the polynomials of some designs: an index or a mask of the first axis.
 

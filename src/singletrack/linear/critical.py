@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from singletrack.arrays import in_stretches
 from singletrack.linear.characteristic import characteristic_polynomial
 from singletrack.linear.critical_record import CriticalSpeeds, Crossing
 from singletrack.linear.crossings import Crossings, pair_crossings, real_crossings
@@ -19,8 +21,8 @@ __all__ = ["CriticalSpeeds", "Crossing", "critical_speeds"]
 
 #: Width, relative to the speed, of a range in which the roots are too near the axis to be asked for their side.
 _NARROW = 1e-4
-#: Designs decided on at a time.
-_CHUNK = 512
+#: Designs decided on at a time: of two freedoms without springs and dampers, of any other model.
+_STRETCH, _CHUNK = 4096, 512
 
 
 def critical_speeds(model: LinearModel) -> CriticalSpeeds:
@@ -42,17 +44,29 @@ def critical_speeds(model: LinearModel) -> CriticalSpeeds:
     >>> [(c.mode, c.direction) for c in result.crossings]
     [('weave', 'gained'), ('capsize', 'lost')]
     """
-    if model.freedoms == 2 and model.is_undamped:
-        return _of_two_freedoms(model)
-    p, batch = pencil(model)
-    parts = [_of_any_freedoms(p.rows(slice(k, k + _CHUNK)), model) for k in range(0, len(p), _CHUNK)]
-    return CriticalSpeeds.joined(parts, batch)
+    batch, by_quadratics = model.shape, model.freedoms == 2 and model.is_undamped
+    if by_quadratics and not batch:
+        return _of_two_freedoms(model, model.valid)
+    valid = np.broadcast_to(model.valid, batch).ravel()
+    parts: dict[int, CriticalSpeeds] = {}
+
+    def work(piece: slice) -> None:
+        some = model.part(piece)
+        if by_quadratics:
+            parts[piece.start] = _of_two_freedoms(some, valid[piece])
+        else:
+            p, _ = pencil(some)
+            p = replace(p, told=p.told & valid[piece])
+            parts[piece.start] = _of_any_freedoms(p, model)
+
+    in_stretches(work, len(valid), _STRETCH if by_quadratics else _CHUNK)
+    return CriticalSpeeds.joined([parts[start] for start in sorted(parts)], batch)
 
 
-def _of_two_freedoms(model: LinearModel) -> CriticalSpeeds:
+def _of_two_freedoms(model: LinearModel, valid: np.ndarray) -> CriticalSpeeds:
     with np.errstate(all="ignore"):  # numbers out of range are not told
         found = solve_quadratics(characteristic_polynomial(model))
-    told = found.told & model.valid
+    told = found.told & valid
     bad = ~told[..., None]
 
     def names(speeds: np.ndarray, name: str) -> np.ndarray:

@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from singletrack.arrays import as_arrays, is_jax, namespace
+from singletrack.arrays import as_arrays, in_stretches, is_jax, namespace, stretches
 from singletrack.errors import InputError
 from singletrack.linear.characteristic import characteristic_polynomial
 from singletrack.linear.pencil import pencil
-from singletrack.linear.quartic.solve import CHUNK, quartic_roots, solve_into
+from singletrack.linear.quartic.solve import CHUNK, quartic_roots, solve_at_speeds
 
 if TYPE_CHECKING:
     from singletrack.arrays import Array, ArrayLike
@@ -20,6 +21,8 @@ if TYPE_CHECKING:
 _FASTEST = 299_792_458.0
 #: Eigenvalue problems given to LAPACK at a time.
 _PROBLEMS = 4096
+#: Designs whose characteristic polynomials are made at a time, at least.
+_DESIGNS = 256
 
 __all__ = ["checked_speeds", "eigenmotions", "eigenvalues"]
 
@@ -74,29 +77,40 @@ def eigenvalues(model: LinearModel, speeds: ArrayLike) -> Array:
     """
     if is_jax(*model.matrices, model.C0, model.S0, model.gravity, speeds):
         return _jax_eigenvalues(model, _one_axis(speeds))
-    v = checked_speeds(speeds)
-    if model.freedoms > 2:
-        return _by_lapack(model, v)
-    with np.errstate(all="ignore"):  # numbers out of range give NaN
-        if model.is_undamped:
-            polynomials, batch = characteristic_polynomial(model).flat()
-            roots = _roots_at(polynomials, v).reshape(*batch, len(v), 4)
-        else:
-            roots = quartic_roots(*monic_quartic(model.M, *at_speeds(model, v)))
-    lost = np.isnan(roots[..., 0].real)
-    if lost.any() and (lost := lost & model.valid[..., None]).any():
-        roots = _told_otherwise(model, v, roots, lost)
-    if model.faults:
-        roots = np.where(model.valid[..., None, None], roots, np.nan)
-    return roots
+    v, batch = checked_speeds(speeds), model.shape
+    count, undamped = math.prod(batch), model.is_undamped
+    valid = np.broadcast_to(model.valid, batch).ravel() if model.faults else None
+    roots = np.empty((count, len(v), 2 * model.freedoms), dtype=complex)
+
+    def work(piece: slice) -> None:
+        some, own = model.part(piece) if batch else model, roots[piece]
+        if model.freedoms > 2:
+            own[:] = _by_lapack(some, v)
+            return
+        with np.errstate(all="ignore"):  # numbers out of range give NaN
+            if undamped:
+                _roots_at(characteristic_polynomial(some).flat()[0], v, own)
+            else:
+                own[:] = quartic_roots(*monic_quartic(some.M, *at_speeds(some, v)))
+        lost = np.isnan(own[..., 0].real)
+        if valid is not None:
+            lost &= valid[piece, None]
+        if lost.any():
+            _told_otherwise(some, v, own, lost)
+
+    least, problems = (1, _PROBLEMS) if model.freedoms > 2 else (_DESIGNS, CHUNK)
+    in_stretches(work, count, max(least, problems // max(len(v), 1)))
+    if valid is not None:
+        roots[~valid] = np.nan
+    return roots.reshape(*batch, *roots.shape[1:])
 
 
-def _told_otherwise(model: LinearModel, v: np.ndarray, roots: np.ndarray, lost: np.ndarray) -> np.ndarray:
-    """Return roots (..., k, 4) with the lost ones, whose quartic was out of range, found in other units."""
+def _told_otherwise(model: LinearModel, v: np.ndarray, roots: np.ndarray, lost: np.ndarray) -> None:
+    """Write the roots (m, k, 4) that are lost, whose quartic was out of range, as found in other units."""
     designs = lost.any(axis=-1)
-    some = model.broadcast_to(model.shape)[designs]
-    roots[designs] = np.where(lost[designs][..., None], _by_lapack(some, v), roots[designs])
-    return roots
+    roots[designs] = np.where(
+        lost[designs][..., None], _by_lapack(model.broadcast_to((len(roots),))[designs], v), roots[designs]
+    )
 
 
 def _jax_eigenvalues(model: LinearModel, v: Array) -> Array:
@@ -112,17 +126,15 @@ def _jax_eigenvalues(model: LinearModel, v: Array) -> Array:
 
 
 def _by_lapack(model: LinearModel, v: np.ndarray) -> np.ndarray:
-    """Return eigenvalues (..., k, 2 n) at speeds (k,) from the state matrices, chunk by chunk."""
+    """Return eigenvalues (..., k, 2 n) at speeds (k,) from the state matrices."""
     p, batch = pencil(model)
     roots = np.empty((len(p), len(v), 2 * p.freedoms), dtype=complex)
-    step = max(1, _PROBLEMS // max(len(v), 1))
-    for start in range(0, len(p), step):
-        rows = slice(start, start + step)
-        some = p.rows(rows)
-        for first in range(0, len(v), _PROBLEMS):
-            columns = slice(first, first + _PROBLEMS)
-            found = np.linalg.eigvals(some.state(v[columns] / some.speed[:, None]))
-            roots[rows, columns] = np.sort_complex(found) * some.rate[:, None, None]
+
+    def work(piece: slice) -> None:
+        found = np.linalg.eigvals(p.state(v[piece] / p.speed[:, None]))
+        roots[:, piece] = np.sort_complex(found) * p.rate[:, None, None]
+
+    in_stretches(work, len(v), max(1, _PROBLEMS // max(len(p), 1)))
     roots[~p.told] = np.nan
     return roots.reshape(*batch, *roots.shape[1:])
 
@@ -132,18 +144,19 @@ def _one_axis(speeds: ArrayLike) -> Array:
     return xp.reshape(v, (-1,))
 
 
-def _roots_at(polynomials: CharacteristicPolynomial, v: np.ndarray) -> np.ndarray:
-    """Return the roots (m, n, 4) of m polynomials at n speeds, in chunks that stay in the cache."""
-    designs, n = len(polynomials.a4), max(len(v), 1)
-    roots = np.empty((designs, len(v), 4), dtype=complex)
-    step = max(1, CHUNK // n)
-    for start in range(0, designs, step):
-        rows = slice(start, start + step)
-        some = polynomials.rows(rows)
-        for first in range(0, len(v), CHUNK):
-            columns = slice(first, first + CHUNK)
-            solve_into(roots[rows, columns].reshape(-1, 4), *(a.ravel() for a in some.monic_at(v[columns])))
-    return roots
+def _roots_at(polynomials: CharacteristicPolynomial, v: np.ndarray, roots: np.ndarray) -> None:
+    """Write the roots (m, k, 4) of m polynomials at speeds (k,)."""
+    ratios = polynomials.ratios()
+    if len(roots) * len(v) <= CHUNK:
+        solve_at_speeds(roots, ratios, v)
+        return
+    for rows in stretches(len(roots), max(1, CHUNK // max(len(v), 1))):
+        some, own = ratios[:, rows], roots[rows]
+
+        def work(piece: slice, some: np.ndarray = some, own: np.ndarray = own) -> None:
+            solve_at_speeds(own[:, piece], some, v[piece])
+
+        in_stretches(work, len(v), max(1, CHUNK // max(len(own), 1)))
 
 
 def at_speeds(model: LinearModel, v: Array) -> tuple[Array, Array]:
@@ -187,7 +200,7 @@ def eigenmotions(model: LinearModel, speeds: ArrayLike, roots: np.ndarray) -> np
     speeds : array, shape (k,)
         In m/s.
     roots : complex array, shape (..., k, 2 n)
-        Eigenvalues at these speeds, in any order.
+        Eigenvalues at these speeds, in 1/s, in any order.
 
     Returns
     -------
@@ -208,23 +221,53 @@ def eigenmotions(model: LinearModel, speeds: ArrayLike, roots: np.ndarray) -> np
     >>> round(float(np.abs(motion[1])), 2), round(float(np.degrees(np.angle(motion[1]))))
     (1.3, -10)
     """
-    v = checked_speeds(speeds)
-    if model.freedoms > 2:
-        return _null_vectors(model, v, np.asarray(roots))
-    damping, stiffness = (np.asarray(part) for part in at_speeds(model, v))
-    s = np.asarray(roots)[..., None, None]
-    M = np.asarray(model.M)[..., None, None, :, :]
-    pencil = M * s**2 + damping[..., None, :, :] * s + stiffness[..., None, :, :]
-    size = np.abs(pencil).sum(axis=-1)
-    row = np.where((size[..., 0] >= size[..., 1])[..., None], pencil[..., 0, :], pencil[..., 1, :])
-    lean, steer = row[..., 1], -row[..., 0]
-    pure_steer = np.abs(lean) <= np.finfo(float).tiny
-    with np.errstate(invalid="ignore"):  # faulty designs of a batch are NaN throughout
-        ratio = np.where(pure_steer, 1.0, steer / np.where(pure_steer, 1.0, lean))
-    return np.stack([np.where(pure_steer, 0.0, 1.0 + 0j), ratio], axis=-1)
+    v, found = checked_speeds(speeds), np.asarray(roots)
+    batch, k, n = np.broadcast_shapes(model.shape, found.shape[:-2]), len(v), model.freedoms
+    flat = np.broadcast_to(found, (*batch, k, 2 * n)).reshape(math.prod(batch), k, 2 * n)
+    whole = model if model.shape == batch else model.broadcast_to(batch)
+    motions = np.empty((*flat.shape, n), dtype=complex)
+
+    def work(piece: slice) -> None:
+        some = whole.part(piece)
+
+        def at(when: slice) -> None:
+            motions[piece, when] = _null_vectors(some, v[when], flat[piece, when])
+
+        in_stretches(at, k, max(1, CHUNK // max(len(flat[piece]), 1)))
+
+    in_stretches(work, len(flat), max(1, CHUNK // max(k, 1)))
+    return motions.reshape(*batch, k, 2 * n, n)
 
 
 def _null_vectors(model: LinearModel, v: np.ndarray, roots: np.ndarray) -> np.ndarray:
+    """Return the eigenmotions (m, k, 2 n, n) of roots (m, k, 2 n)."""
+    if model.freedoms > 2:
+        return _null_vectors_by_lapack(model, v, roots)
+    damping, stiffness = (np.asarray(part) for part in at_speeds(model, v))
+    M = np.asarray(model.M)[..., None, :, :]
+    square = roots * roots
+
+    def entry(i: int, j: int) -> np.ndarray:
+        m, c, k = (part[..., i, j, None] for part in (M, damping, stiffness))
+        result: np.ndarray = m * square + c * roots + k
+        return result
+
+    def size(z: np.ndarray) -> np.ndarray:
+        result: np.ndarray = np.abs(z.real) + np.abs(z.imag)
+        return result
+
+    (a, b), (c, d) = [[entry(i, j) for j in range(2)] for i in range(2)]
+    upper = size(a) + size(b) >= size(c) + size(d)
+    lean, steer = np.where(upper, b, d), -np.where(upper, a, c)
+    pure_steer = size(lean) <= np.finfo(float).tiny
+    motions = np.ones((*roots.shape, 2), dtype=complex)
+    with np.errstate(invalid="ignore"):  # faulty designs of a batch are NaN throughout
+        motions[..., 1] = steer / np.where(pure_steer, 1.0, lean)
+    motions[pure_steer] = (0.0, 1.0)
+    return motions
+
+
+def _null_vectors_by_lapack(model: LinearModel, v: np.ndarray, roots: np.ndarray) -> np.ndarray:
     p, batch = pencil(model)
     n = p.freedoms
     flat = np.broadcast_to(roots, (*batch, *roots.shape[-2:])).reshape(len(p), *roots.shape[-2:])

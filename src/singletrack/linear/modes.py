@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from singletrack.arrays import in_stretches
 from singletrack.errors import InputError
 from singletrack.linear.characteristic import characteristic_polynomial
 from singletrack.linear.display import line_of_modes, table_of_modes
@@ -25,10 +26,13 @@ from singletrack.linear.meetings import Meetings, find_meetings
 from singletrack.linear.naming import follow
 from singletrack.linear.pencil import pencil
 from singletrack.linear.quartic.solve import quartic_roots
-from singletrack.linear.root_order import arrange, label_at_infinity, label_below, real_count
+from singletrack.linear.root_columns import in_columns
+from singletrack.linear.root_order import label_at_infinity, label_below, real_count
 from singletrack.model import COORDINATES
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     import xarray
 
     from singletrack.arrays import ArrayLike
@@ -41,6 +45,8 @@ _NAMES = ("weave", "weave", "capsize", "castering")
 _LABELS = ("weave +", "weave -", "capsize", "castering")
 #: Designs of any number of freedoms followed at a time.
 _CHUNK = 256
+#: Problems in a stretch.
+_PROBLEMS = 32768
 
 
 @dataclass(frozen=True, eq=False)
@@ -156,63 +162,101 @@ def modes(model: LinearModel, speeds: ArrayLike) -> Modes:
         raise InputError(f"speeds: found {v.min():g} m/s, must be zero or more (modes are named for riding forward)")
     if model.freedoms > 2 or not model.is_undamped:
         return _of_any_freedoms(model, v)
+    return _followed(model, v, _by_meetings)
+
+
+def _of_any_freedoms(model: LinearModel, v: np.ndarray) -> Modes:
+    return _followed(model, v, _by_branches)
+
+
+def _followed(
+    model: LinearModel, v: np.ndarray, name: Callable[[LinearModel, np.ndarray, np.ndarray], np.ndarray]
+) -> Modes:
+    """Return the modes of designs (...), stretch by stretch, by a function that puts roots into columns."""
+    batch, k, n = model.shape, len(v), model.freedoms
+    valid = np.broadcast_to(model.valid, batch).ravel()
+    named = np.empty((math.prod(batch), k, 2 * n), dtype=complex)
+
+    def work(piece: slice) -> None:
+        some = model.part(piece)
+        roots = eigenvalues(some, v)
+        roots[~valid[piece]] = np.nan
+        named[piece] = name(some, v, roots)
+
+    in_stretches(work, len(named), max(1, _PROBLEMS // max(k, 1)))
+    named = named.reshape(*batch, k, 2 * n)
+    motions = eigenmotions(model, v, named)
+    if n == 2:
+        return Modes(v, named, motions)
+    return Modes(v, named, motions, model.coordinates, _dominant(model, motions))
+
+
+def _dominant(model: LinearModel, motions: np.ndarray) -> np.ndarray:
+    """Return which coordinate takes most part in each motion (..., k, 2 n, n)."""
+    masses = np.sqrt(np.abs(np.diagonal(np.asarray(model.M), axis1=-2, axis2=-1)))
+    share = np.abs(motions)
+    share *= masses[..., None, None, :]
+    result: np.ndarray = np.argmax(np.nan_to_num(share, copy=False), axis=-1)
+    return result
+
+
+def _by_meetings(model: LinearModel, v: np.ndarray, roots: np.ndarray) -> np.ndarray:
+    """Put roots (m, k, 4) of two freedoms without springs and dampers into the columns of their modes."""
     with np.errstate(all="ignore"):  # faulty designs are NaN throughout
-        polynomials, batch = characteristic_polynomial(model).flat()
-    roots = eigenvalues(model, v).reshape(math.prod(batch), len(v), 4)
+        polynomials, _ = characteristic_polynomial(model).flat()
     usable = np.isfinite(roots).all(axis=(1, 2))
     named = np.full_like(roots, np.nan)
     if usable.any() and len(v):
         named[usable] = _follow(polynomials.rows(usable), v, roots[usable])
-    named = named.reshape(*batch, len(v), 4)
-    return Modes(v, named, eigenmotions(model, v, named))
+    return named
 
 
-def _of_any_freedoms(model: LinearModel, v: np.ndarray) -> Modes:
+def _by_branches(model: LinearModel, v: np.ndarray, roots: np.ndarray) -> np.ndarray:
+    """Put roots (m, k, 2 n) of any freedoms into the columns of their modes."""
     p, _ = pencil(model)
-    roots = eigenvalues(model, v)
-    named = roots.reshape(len(p), len(v), 2 * model.freedoms).copy()
-    told = np.flatnonzero(p.told & np.isfinite(named).all(axis=(1, 2)) & bool(len(v)))
+    named = roots.copy()
+    told = np.flatnonzero(p.told & np.isfinite(roots).all(axis=(1, 2)) & bool(len(v)))
     for start in range(0, len(told), _CHUNK):
         rows = told[start : start + _CHUNK]
         some = p.rows(rows)
         rate = some.rate[:, None, None]
         named[rows] = follow(some, v / some.speed[:, None], named[rows] / rate) * rate
-    named = named.reshape(roots.shape)
-    motions = eigenmotions(model, v, named)
-    if model.freedoms == 2:
-        return Modes(v, named, motions)
-    masses = np.sqrt(np.abs(np.diagonal(np.asarray(model.M), axis1=-2, axis2=-1)))
-    dominant = np.argmax(np.nan_to_num(np.abs(motions) * masses[..., None, None, :]), axis=-1)
-    return Modes(v, named, motions, model.coordinates, dominant)
+    return named
 
 
 def _follow(p: CharacteristicPolynomial, v: np.ndarray, roots: np.ndarray) -> np.ndarray:
     """Put roots (m, n, 4) into the columns of their modes."""
     meetings = find_meetings(p)
     counts, labels = _labels(p, meetings)
-    interval = (v[None, :, None] > meetings.speeds[:, None, :]).sum(axis=-1)
-    count = np.take_along_axis(counts, interval, axis=1)
-    ordered = arrange(roots, count, descending=v[None, :] < meetings.passing[:, None])
-    columns = np.take_along_axis(labels, interval[..., None], axis=1)
-    named = np.empty_like(roots)
-    np.put_along_axis(named, columns, ordered, axis=-1)
-    first, second = named[..., 0], named[..., 1]
-    both_real = (first.imag == 0) & (second.imag == 0)
-    swapped = ((first.imag < 0) & (second.imag > 0)) | (both_real & (first.real > second.real))
-    named[..., :2] = np.where(swapped[..., None], named[..., 1::-1], named[..., :2])
-    return named
+    interval = np.zeros(roots.shape[:-1], dtype=np.intp)
+    for speeds in meetings.speeds.T:
+        if np.isfinite(speeds).any():
+            interval += v > speeds[:, None]
+    return in_columns(roots, interval, counts, labels, v < meetings.passing[:, None])
 
 
 def _labels(p: CharacteristicPolynomial, meetings: Meetings) -> tuple[np.ndarray, np.ndarray]:
-    """Return, for m designs and 7 intervals, the number of real roots (m, 7) and the column of each place (m, 7, 4)."""
-    inside = meetings.between()
-    counts = real_count(quartic_roots(*p.monic_at(inside)))
-    finite = np.isfinite(meetings.speeds)
-    at = quartic_roots(*p.monic_at(np.where(finite, meetings.speeds, 1.0)))
-    descending = np.where(finite, meetings.speeds, 1.0) < meetings.passing[:, None]
+    """Return, for m designs and 7 intervals, the number of real roots (m, 7) and the column of each place (m, 7, 4).
+
+    What has no meeting at its upper end is as the interval above.
+    """
+    inside, finite = meetings.between(), np.isfinite(meetings.speeds)
+    counts = np.empty(inside.shape, dtype=np.intp)
+    counts[:, -1] = real_count(_roots_at(p, inside[:, -1]))
     labels = np.empty((*counts.shape, 4), dtype=np.intp)
     labels[:, -1] = label_at_infinity(p, counts[:, -1])
     for k in range(meetings.speeds.shape[1] - 1, -1, -1):
-        below = label_below(labels[:, k + 1], counts[:, k + 1], counts[:, k], at[:, k], descending[:, k])
-        labels[:, k] = np.where(finite[:, k, None], below, labels[:, k + 1])
+        counts[:, k], labels[:, k] = counts[:, k + 1], labels[:, k + 1]
+        row = np.flatnonzero(finite[:, k])
+        if not len(row):
+            continue
+        some, speed = p.rows(row), meetings.speeds[row, k]
+        counts[row, k] = real_count(_roots_at(some, inside[row, k]))
+        at, descending = _roots_at(some, speed), speed < meetings.passing[row]
+        labels[row, k] = label_below(labels[row, k + 1], counts[row, k + 1], counts[row, k], at, descending)
     return counts, labels
+
+
+def _roots_at(p: CharacteristicPolynomial, speeds: np.ndarray) -> np.ndarray:
+    """Return the roots (m, 4) of designs at a speed (m,) each."""
+    return quartic_roots(*p.monic_at(speeds[:, None]))[:, 0]

@@ -77,7 +77,7 @@ def seat_geometry(m: Mapping[str, np.ndarray], p: Mapping[str, Any]) -> dict[str
     Parameters
     ----------
     m : mapping of str to array, shape (k,)
-        Measurements.
+        Measurements, in the units of :data:`singletrack.measuring.quantities.MEASURED_QUANTITIES`.
     p : mapping of str to array, shape (k,)
         ``w, c, lam, rR, rF`` as they follow from them, SI.
     """

@@ -64,7 +64,7 @@ def hung_body(
     Parameters
     ----------
     m : mapping of str to array, shape (k,)
-        Measurements.
+        Measurements, in the units of :data:`singletrack.measuring.quantities.MEASURED_QUANTITIES`.
     letter : str
         Of the body in their names.
     reference : tuple of array, shape (k,)

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import dataclasses
 from dataclasses import dataclass, field
+from math import prod
 from typing import TYPE_CHECKING, Any, Self, cast
 
 import numpy as np
@@ -147,6 +148,28 @@ class LinearModel:
         some: dict[str, Any] = {name: getattr(whole, name)[of_matrix] for name in (*_SQUARE, "B")}
         some["gravity"] = np.asarray(whole.gravity)[of_batch]
         return dataclasses.replace(whole, **some, faults=tuple(fault[index] for fault in whole.faults))
+
+    def part(self, which: slice) -> Self:
+        """Return some designs of a batch, on one axis, without their faults.
+
+        M has an entry for each of them; what else is the same for all stays so.
+
+        Parameters
+        ----------
+        which : slice
+            Designs, as numbered along one axis.
+        """
+        batch = self.shape
+
+        def some(value: Number, axes: int, *, always: bool = False) -> Array:
+            value = np.asarray(value)
+            if value.ndim == axes and not always:
+                return value
+            inner = value.shape[value.ndim - axes :]
+            return np.broadcast_to(value, (*batch, *inner)).reshape(prod(batch), *inner)[which]
+
+        fields: dict[str, Any] = {name: some(getattr(self, name), 2, always=name == "M") for name in (*_SQUARE, "B")}
+        return dataclasses.replace(self, **fields, gravity=some(self.gravity, 0), faults=())
 
     def to_dict(self) -> dict[str, Any]:
         """Return names and matrices as nested lists, in full double precision (for JSON)."""

@@ -1,4 +1,7 @@
-"""Solving the loops' equations: block by block where each loop has three joints of its own, else by one inverse."""
+"""Solving the loops' equations: block by block where each loop has three joints of its own, else by one inverse.
+
+Which of them solves for a design depends on that design alone, so that no bit depends on the others in its batch.
+"""
 
 from __future__ import annotations
 
@@ -41,35 +44,42 @@ def solver_of(
         Of the batch of N designs.
     """
     own = posture.tree.points.own
-    if own is not None and not posture.tree.angles.index:
-        solve = _blocks(loops, own)
-        if solve is not None:
-            return solve, ()
-    matrix = loops.matrix(xp, spin, posture.tree.dependent)
-    inverse, faults = _inverse(xp.moveaxis(matrix, -1, 0), posture, shape)
+    if own is None or posture.tree.angles.index:
+        return _by_inverse(xp, posture, loops.matrix(xp, spin, posture.tree.dependent), shape)
+    blocks, doubtful = _blocks(loops, own)
+    if doubtful is None or not doubtful.any():
+        return blocks, ()
+    matrix = np.asarray(loops.matrix(xp, spin, posture.tree.dependent))
+    inverse, faults = _by_inverse(np, posture, matrix[..., doubtful], shape, doubtful)
 
-    def by_inverse(right: Array) -> Array:
-        return xp.moveaxis(xp.matmul(inverse, xp.moveaxis(right, -1, 0)), 0, -1)
+    def of_each(right: Array) -> Array:
+        rates = np.array(blocks(right))
+        rates[..., doubtful] = inverse(np.asarray(right)[..., doubtful])
+        return xp.asarray(rates)
 
-    return by_inverse, faults
+    return of_each, faults
 
 
-def _blocks(loops: Loops, own: np.ndarray) -> Callable[[Array], Array] | None:
-    """Return the solver of loops with three joints each of their own, or None if one is nearly singular."""
+def _blocks(loops: Loops, own: np.ndarray) -> tuple[Callable[[Array], Array], np.ndarray | None]:
+    """Return the solver of loops with three joints each of their own, and for which designs (N,) it is doubtful.
+
+    None where JAX does not let that be looked at.
+    """
     count = len(own)
     columns, rows, volume = _adjugates(loops, own)
+    doubtful = None
     if is_concrete(volume):
         with np.errstate(invalid="ignore"):
             # |A| |A⁻¹| (Frobenius) is at least σmax / σmin.
-            if not np.all(abs(np.asarray(_sizes(columns, rows))) * _SINGULAR**2 < abs(np.asarray(volume)) ** 2):
-                return None
+            clear = abs(np.asarray(_sizes(columns, rows))) * _SINGULAR**2 < abs(np.asarray(volume)) ** 2
+        doubtful = np.asarray(~clear.all(axis=0))
 
     def by_blocks(right: Array) -> Array:
         sides = right.reshape(3, count, *right.shape[1:])
         rates = stack([dot3(row[:, :, None], sides) for row in rows], -3) / volume[:, None, None]
         return rates.reshape(3 * count, *right.shape[1:])
 
-    return by_blocks
+    return by_blocks, doubtful
 
 
 def _adjugates(loops: Loops, own: np.ndarray) -> tuple[list[Array], list[Array], Array]:
@@ -105,11 +115,27 @@ def squared_condition(xp: Any, posture: Posture, loops: Loops, spin: Array) -> A
     return xp.sum(matrix**2, axis=(-2, -1)) * xp.sum(xp.linalg.inv(matrix) ** 2, axis=(-2, -1))
 
 
-def _inverse(matrix: Array, posture: Posture, shape: tuple[int, ...]) -> tuple[Array, tuple[Fault, ...]]:
-    """Return the inverses of the loops' matrices (N, rows, joints), NaN where they cannot move, and these faults."""
+def _by_inverse(
+    xp: Any, posture: Posture, matrix: Array, shape: tuple[int, ...], which: np.ndarray | None = None
+) -> tuple[Callable[[Array], Array], tuple[Fault, ...]]:
+    """Return the solver by inverses of the loops' matrices (rows, joints, k), of those of a mask (N,)."""
+    inverse, bad = _inverse(xp.moveaxis(matrix, -1, 0))
+
+    def solve(right: Array) -> Array:
+        return xp.moveaxis(xp.matmul(inverse, xp.moveaxis(right, -1, 0)), 0, -1)
+
+    if bad is None or not bad.any():
+        return solve, ()
+    numbers = np.moveaxis(np.asarray(matrix), -1, 0)
+    of_all = np.ones(len(numbers), dtype=bool) if which is None else which
+    return solve, refuse_single([_singular(posture, numbers, bad, np.flatnonzero(of_all), len(of_all), shape)])
+
+
+def _inverse(matrix: Array) -> tuple[Array, np.ndarray | None]:
+    """Return the inverses of the loops' matrices (N, rows, joints), NaN where they cannot move, and where that is."""
     xp, (matrix,) = as_arrays(matrix)
     if not is_concrete(matrix):
-        return xp.linalg.inv(matrix), ()
+        return xp.linalg.inv(matrix), None
     numbers = np.asarray(matrix)
     try:
         inverse = np.linalg.inv(numbers)
@@ -123,22 +149,29 @@ def _inverse(matrix: Array, posture: Posture, shape: tuple[int, ...]) -> tuple[A
     if suspect.any():
         singular_values = np.linalg.svd(numbers[suspect], compute_uv=False)
         bad[suspect] = singular_values[..., -1] <= _SINGULAR * singular_values[..., 0]
-    faults = refuse_single([_singular(posture, numbers, bad, shape)]) if bad.any() else ()
     if is_jax(matrix) or suspect.any():
         inverse = xp.linalg.inv(xp.where(xp.asarray(bad)[..., None, None], xp.nan, matrix))
-    return inverse, faults
+    return inverse, bad
 
 
-def _singular(posture: Posture, matrices: Array, bad: Array, shape: tuple[int, ...]) -> Fault:
-    """Return the fault of loops that cannot follow, with the joint and the loop that it shows in."""
+def _singular(
+    posture: Posture, matrices: Array, bad: np.ndarray, designs: np.ndarray, count: int, shape: tuple[int, ...]
+) -> Fault:
+    """Return the fault of loops that cannot follow, with the joint and the loop in which it shows for each design."""
     tree = posture.tree
-    left, _, right = np.linalg.svd(matrices[np.flatnonzero(bad)[0]])
-    joint = posture.joints[tree.dependent[int(np.argmax(abs(right[-1])))]].name
+    left, _, right = np.linalg.svd(matrices[bad])
+    joints = np.array([posture.joints[k].name for k in tree.dependent])
     rows = [*tree.points.index, *tree.points.index, *tree.points.index, *tree.angles.index]
-    loop = posture.loops[rows[int(np.argmax(abs(left[:, -1])))]].name
+    loops = np.array([posture.loops[k].name for k in rows])
+    mask = np.zeros(count, dtype=bool)
+    mask[designs[bad]] = True
+    found = {"joint": np.zeros(count, joints.dtype), "loop": np.zeros(count, loops.dtype)}
+    found["joint"][mask] = joints[np.argmax(abs(right[:, -1]), axis=-1)]
+    found["loop"][mask] = loops[np.argmax(abs(left[:, :, -1]), axis=-1)]
     text = (
         f"posture {posture.name}: the hands cannot follow the grips when steering, because the loops through the arms "
-        f"are singular (an arm is stretched straight, or its axes line up): joint {joint} is not determined by the "
-        f"loops, loop {loop} cannot move all ways"
+        "are singular (an arm is stretched straight, or its axes line up): joint {joint} is not determined by the "
+        "loops, loop {loop} cannot move all ways"
     )
-    return Fault(bad.reshape(shape), text, {}, PostureError)
+    values = {name: value.reshape(shape) for name, value in found.items()}
+    return Fault(mask.reshape(shape), text, values, PostureError)

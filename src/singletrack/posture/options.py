@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Self
 
 import numpy as np
 
-from singletrack.arrays import Number, is_concrete
+from singletrack.arrays import Number, is_concrete, part_of
 from singletrack.errors import InputError, unknown_name
 from singletrack.library import shipped
 from singletrack.posture.mechanism import STIFFEST, Mechanism
@@ -97,6 +97,25 @@ class Options:
     def of(cls, options: Options | Mechanism | str) -> Self:
         """Return options as they are, or those of a posture alone."""
         return options if isinstance(options, cls) else cls(options)  # type: ignore[arg-type]
+
+    def part(self, which: slice | np.ndarray, shape: tuple[int, ...]) -> Self:
+        """Return the options of some designs of a batch, on one axis.
+
+        Parameters
+        ----------
+        which : slice or array of int
+            Indices of designs, as numbered along one axis.
+        shape : tuple of int
+            Of the batch, to which springs and dampers broadcast.
+        """
+
+        def some(value: Number) -> Number:
+            return part_of(np.asarray(value) if np.ndim(value) else value, which, shape)
+
+        springs, dampers = (
+            {joint: some(value) for joint, value in values.items()} for values in (self.springs, self.dampers)
+        )
+        return replace(self, springs=springs, dampers=dampers, fit=None if self.fit is None else some(self.fit))
 
     @property
     def name(self) -> str:

@@ -23,6 +23,7 @@ __all__ = ["broken", "draw_eigenvalues", "eigenvalue_figure"]
 
 # Of the words above the axes: how far up they begin and how far apart rows are, in points; how far aside, in pixels.
 _ABOVE, _ROW, _ASIDE = 3, 11, 60
+_LIFT = 5.0
 
 
 def eigenvalue_figure(modes: Modes, critical: CriticalSpeeds, title: str, limit: float = 10.0) -> Figure:
@@ -147,7 +148,9 @@ def _arrange(axes: Axes, texts: list[Annotation]) -> int:
             ends.append(-np.inf)
         shift = max(shift, ends[row] - box.x0)
         ends[row] = box.x1 + shift + 6 * per_point
-        text.set_position((shift / per_point, _ABOVE + row * _ROW))
+        # What is wider than the axes stands above the number at their corner too.
+        lift = _LIFT if box.x0 + shift < across.x0 else 0.0
+        text.set_position((shift / per_point, _ABOVE + lift + row * _ROW))
     return len(ends)
 
 
@@ -165,7 +168,7 @@ def broken(roots: np.ndarray, column: int) -> np.ndarray:
     Parameters
     ----------
     roots : complex array, shape (k, 2 n)
-        At k speeds.
+        At k speeds, in 1/s.
     column : int
         Of the mode.
     """
@@ -185,7 +188,9 @@ def _mode_curves(modes: Modes, v: np.ndarray) -> list[tuple[Curve, bool]]:
         real = broken(roots, column)
         imaginary = np.where(roots[:, column].imag > 0, roots[:, column].imag, np.nan)
         second_of_pair = column > 0 and modes.names[column - 1] == name
-        curves.append((Curve(v, real, "" if second_of_pair else f"Re {name}", colour), False))
+        twin = column + 1 < len(modes.names) and modes.names[column + 1] == name
+        also = broken(roots, column + 1) if twin else None
+        curves.append((Curve(v, real, "" if second_of_pair else f"Re {name}", colour, also=also), False))
         if np.isfinite(imaginary).any():
             curves.append((Curve(v, imaginary, "" if second_of_pair else f"Im {name}", colour), True))
     return curves

@@ -29,7 +29,7 @@ def parameter_figure(
     Parameters
     ----------
     values : array, shape (m,)
-        Of the parameter, as the axis shows them.
+        Of the parameter, as the axis shows them, in the units of its label.
     modes : Modes
         Of the m designs at one speed; eigenvalues of shape (m, 1, 2 n).
     label : str
@@ -76,7 +76,7 @@ def map_figure(
     ----------
     found : StabilityMap
     factor : float
-        What its values are multiplied with for the axis.
+        What its values are multiplied with for the axis: units of the label in one of SI.
     label : str
         The parameter and its unit.
     top : float

@@ -106,7 +106,7 @@ def figure_bytes(figure: Figure, kind: str, dots: float | None = None) -> bytes:
     figure : Figure
     kind : {"png", "svg", "pdf"}
     dots : float, optional
-        Per inch, of a png.
+        Number of them per inch, of a png.
     """
     from matplotlib.text import Text  # lazy: heavy
 

@@ -89,7 +89,7 @@ def coefficients_table(model: LinearModel, title: str, deviations: Mapping[str, 
         With n coordinates.
     title : str
     deviations : mapping of str to array, shape (n, n), optional
-        Standard deviations of the entries, by matrix.
+        Standard deviations of the entries, by matrix, in SI units.
     """
     table = _table(title)
     for heading in ("", "equation", *model.coordinates, "unit"):

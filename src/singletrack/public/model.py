@@ -89,7 +89,7 @@ class CoefficientMatrices(LinearModel):
         return eigenvalues(self, speeds)
 
     def modes(self, speeds: ArrayLike) -> Modes:
-        """Return the eigenvalues as named modes, followed through the speeds (see :class:`Modes`)."""
+        """Return the eigenvalues as named modes, followed through the speeds, in m/s (see :class:`Modes`)."""
         return modes(self, speeds)
 
     @overload

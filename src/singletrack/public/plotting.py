@@ -41,10 +41,13 @@ def figure_of_model(
     model : LinearModel
         Of shape () or (m,).
     speeds : array, shape (k,)
+        In m/s.
     width : float
+        In mm.
     title : str
     kmh : bool
     limit : float
+        In 1/s.
     uncertainty : EigenvalueUncertainty, optional
     """
     v = np.sort(checked_speeds(speeds))

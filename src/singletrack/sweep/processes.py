@@ -11,6 +11,7 @@ from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
+from singletrack.arrays import single_thread
 from singletrack.errors import SingletrackError
 from singletrack.sweep.work import Chunk, Order, do
 
@@ -142,4 +143,5 @@ def _end_with_parent() -> None:
 
 
 def _do_here(chunk: Chunk) -> Entry:
-    return do(_Here.order, chunk)
+    with single_thread():  # each core has a process already
+        return do(_Here.order, chunk)

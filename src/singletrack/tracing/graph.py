@@ -107,12 +107,12 @@ class Graph:
         return self._known[key]
 
     def constant(self, value: float) -> int:
-        """Return the node of a number (value)."""
+        """Return the node of a number (value), of any unit."""
         value = float(value)
         return self._add(("constant", (value.hex(),)), Node("constant", (), value))
 
     def input(self, nominal: float) -> int:
-        """Return the node of the next input, with its nominal value, by which pivots are chosen."""
+        """Return the node of the next input, with its nominal value (of any unit), by which pivots are chosen."""
         place = self.inputs
         self.inputs += 1
         return self._add(("input", (place,)), Node("input", (place,), float(nominal)))

@@ -9,6 +9,7 @@ import numpy as np
 
 from singletrack.errors import InputError
 from singletrack.tracing.graph import OPERATIONS, Graph
+from singletrack.tracing.moves import MOVES
 from singletrack.tracing.solve import lu, permutation, triangular_solve
 
 if TYPE_CHECKING:
@@ -18,11 +19,8 @@ __all__ = ["trace"]
 
 _SAME_NAME = set(OPERATIONS) - {"select", "div"}
 _UNCHANGED = {"convert_element_type", "stop_gradient", "real", "copy", "copy_p", "reduce_precision"}
-#: Operations that only move entries about: done on their positions, by JAX itself.
-_MOVES = {
-    *("broadcast_in_dim", "reshape", "squeeze", "expand_dims", "transpose", "slice", "rev", "concatenate", "stack"),
-    *("pad", "gather", "scatter", "dynamic_slice", "dynamic_update_slice", "split"),
-}
+#: Operations that only move entries about: by NumPy, or on their positions by JAX itself.
+_MOVES = {*MOVES, "expand_dims", "stack", "pad", "gather", "scatter", "dynamic_slice", "dynamic_update_slice", "split"}
 #: Which operands say where, rather than being moved.
 _INDICES = {"gather": {1}, "scatter": {1}, "dynamic_slice": {1, 2, 3, 4}, "dynamic_update_slice": {2, 3, 4, 5}}
 _CALLS = {"jit": "jaxpr", "pjit": "jaxpr", "closed_call": "call_jaxpr", "core_call": "call_jaxpr", "remat": "jaxpr"}
@@ -39,7 +37,7 @@ def trace(function: Callable[[Any], Any], nominal: Sequence[float]) -> tuple[Gra
     function : callable
         Takes a JAX array, shape (n,); returns an array or a tuple of arrays.
     nominal : sequence of float, shape (n,)
-        Inputs at which pivots of linear systems are chosen.
+        Inputs, of any unit, at which pivots of linear systems are chosen.
 
     Returns
     -------
@@ -148,6 +146,8 @@ class _Interpreter:
         return np.array(flat, dtype=np.intp).reshape(arrays[0].shape)
 
     def _moved(self, equation: Any, operands: list[np.ndarray]) -> list[np.ndarray]:
+        if equation.primitive.name in MOVES:
+            return [MOVES[equation.primitive.name](*operands, **equation.params)]
         where = _INDICES.get(equation.primitive.name, set())
         moved = [operand for k, operand in enumerate(operands) if k not in where]
         start, places = 0, []

@@ -85,7 +85,7 @@ def javascript_function(name: str, graph: Graph, outputs: list[np.ndarray]) -> s
     name : str
     graph : Graph
     outputs : list of int arrays
-        Of any shapes; their entries are nodes, written in C order.
+        Of any shapes; their entries are numbers of nodes, indices into the graph, written in C order.
 
     Examples
     --------

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from singletrack import InputError, load_bicycle, load_rider, turn
+from singletrack import InputError, coefficients, load_bicycle, load_rider, turn
 from singletrack.errors import ModelError
 from singletrack.multibody import (
     accelerations,
@@ -120,6 +120,67 @@ def test_the_fold_of_the_hands_free_family_is_passed_without_a_jump() -> None:
     assert steer[-1] == pytest.approx(at_rest["steer"], abs=0.01)
     left = hands_free_family(model, 6.0, right=False)
     assert left.motions[5].state["lean"] == pytest.approx(-lean[5], rel=1e-8)
+
+
+def turned_back(bicycle: Any) -> Any:
+    """The bicycle with its front assembly turned by 180 deg about the steer axis and pitched onto its wheels again."""
+    b, tilt = bicycle, float(bicycle.steer_axis_tilt)
+    foot, axis = np.array([b.wheel_base + b.trail, 0.0]), np.array([np.sin(tilt), np.cos(tilt)])
+    flip = 2.0 * np.outer(axis, axis) - np.eye(2)
+    rear = np.array([0.0, -float(b.rear_wheel_radius)])
+    hub, front = (
+        foot + flip @ (np.array(at) - foot)
+        for at in ((b.wheel_base, -b.front_wheel_radius), (b.front_frame_x, b.front_frame_z))
+    )
+    across, height = hub - rear, float(b.rear_wheel_radius - b.front_wheel_radius)
+    pitch = np.arctan2(across[1], across[0]) - np.arcsin(height / np.hypot(*across))
+    turn = np.array([[np.cos(pitch), np.sin(pitch)], [-np.sin(pitch), np.cos(pitch)]])
+    frame = np.array([b.rear_frame_x, b.rear_frame_z])
+    hub, front, frame, foot = (rear + turn @ (at - rear) for at in (hub, front, frame, foot))
+    axis = turn @ axis
+    changes: dict[str, float] = {"wheel_base": hub[0], "steer_axis_tilt": np.arctan2(*axis)}
+    changes["trail"] = foot[0] - foot[1] / axis[1] * axis[0] - hub[0]
+    for name, centre, turns in (("front_frame", front, turn @ flip), ("rear_frame", frame, turn)):
+        xx, xz, zz = (getattr(b, f"{name}_inertia_{axes}") for axes in ("xx", "xz", "zz"))
+        inertia = turns @ np.array([[xx, xz], [xz, zz]]) @ turns.T
+        changes |= {f"{name}_x": centre[0], f"{name}_z": centre[1], f"{name}_inertia_xx": inertia[0, 0]}
+        changes |= {f"{name}_inertia_xz": inertia[0, 1], f"{name}_inertia_zz": inertia[1, 1]}
+    return bicycle.replace(**changes), pitch
+
+
+def test_the_family_with_the_handlebar_reversed_starts_at_capsize_and_ends_flat_and_fast() -> None:
+    """Basu-Mandal et al. 2007: from the capsize bifurcation of the reversed bicycle towards spinning flat in circles.
+
+    Where it starts is known from the linear equations of a bicycle that is built the other way round.
+    """
+    bicycle = load_bicycle("benchmark")
+    reversed_bicycle, pitch = turned_back(bicycle)
+    (capsize,) = coefficients(reversed_bicycle).critical_speeds().capsize
+    family = hands_free_family(bicycle_model(bicycle), 7.5, guess={"steer": np.pi})
+    states = [motion.state for motion in family.motions]
+    assert -0.3 * states[0].rate("rear wheel") == pytest.approx(capsize, abs=1e-6)
+    assert states[0]["pitch"] == pytest.approx(pitch, abs=1e-6)
+    lean, yaw, off, rate = (
+        np.array([pick(state) for state in states])
+        for pick in (
+            lambda s: s["lean"],
+            lambda s: s.rate("yaw"),
+            lambda s: abs(s["steer"] - np.pi),
+            lambda s: -s.rate("rear wheel"),
+        )
+    )
+    steps = np.sqrt(np.diff(lean) ** 2 + np.diff(off) ** 2 + (np.diff(rate) / rate[0]) ** 2)
+    assert np.max(steps) < 0.06  # two folds of the lean, no jump
+    assert np.count_nonzero(np.diff(np.sign(np.diff(lean)))) == 2
+    # In the end it lies down, its front wheel steered straight again, and turns the faster the flatter it lies.
+    assert family.end == "fell to the right"
+    last = slice(-30, None)
+    assert np.all(np.diff(lean[last]) > 0.0)
+    assert np.all(np.diff(yaw[last]) > 0.0)
+    assert np.all(np.diff(rate[last]) > 0.0)
+    assert np.all(np.diff(off[last]) < 0.0)
+    assert off[-1] < 0.2 * off.max()
+    assert circle(family.motions[-1]).radius < 4.0
 
 
 def test_turns_end_where_a_hand_a_wheel_or_the_ground_ends_them() -> None:

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 __all__ = [
     "cubic_start",
     "factor",
+    "monic",
     "newton_step",
     "ordered_roots",
     "quadratic_roots",
@@ -74,6 +75,22 @@ def factor(
     for _ in range(newton_steps):
         p1, q1, p2, q2 = newton_step(b, c, d, e, p1, q1, p2, q2)
     return p1, q1, p2, q2, reproduces(b, c, d, e, p1, q1, p2, q2)
+
+
+def monic(
+    b: Array, c0: Array, c1: Array, d0: Array, d1: Array, e0: Array, e1: Array, e2: Array, v: Array
+) -> tuple[Array, Array, Array, Array]:
+    """Return b, c, d, e of the monic quartic at a speed, from what does not depend on it.
+
+    Parameters
+    ----------
+    b, c0, c1, d0, d1, e0, e1, e2 : array, shape (...)
+        Coefficients of :class:`~singletrack.linear.characteristic.CharacteristicPolynomial` over its first.
+    v : array, shape (...)
+        The speed in m/s.
+    """
+    u = v * v
+    return b * v, c0 + c1 * u, (d0 + d1 * u) * v, e0 + (e1 + e2 * u) * u
 
 
 def resolvent_root(

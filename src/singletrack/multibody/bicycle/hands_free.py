@@ -44,7 +44,7 @@ def hands_free_family(
     right
         Turns to the right, or to the left.
     guess
-        Coordinates to start with.
+        Coordinates to start with, rad.
     along, first
         The angle that is given of the first turn, ``lean`` or ``steer``, and its size, rad.
 
@@ -93,7 +93,7 @@ def free_turns(
         ``lean`` or ``steer``: which angle is given. The lean of a family may have a greatest value, beyond which
         only the steer goes on.
     guess
-        Coordinates to start with, where not near straight running.
+        Coordinates to start with, rad, where not near straight running.
 
     Returns
     -------

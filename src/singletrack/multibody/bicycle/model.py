@@ -225,7 +225,7 @@ def ride(
     coordinates, rates
         Coordinates (rad, m) and rates of lean and steer (rad/s); zero where not given.
     guess
-        Where to start with the other coordinates.
+        Where to start with the other coordinates, m or rad.
 
     Examples
     --------

@@ -98,9 +98,9 @@ def assemble(
     coordinates
         Coordinates that are kept as given (m, rad).
     parameters
-        Values of parameters, by name.
+        Values of parameters, by name, SI.
     guess
-        Where to start for the others; zero, the drawing, where not given.
+        Where to start for the others (m, rad); zero, the drawing, where not given.
     independent
         Names of the independent speeds, if not those of the system.
 
@@ -204,7 +204,7 @@ def _null_space(matrix: Array) -> Array:
 
 
 def move(state: State, rates: Mapping[str, float]) -> State:
-    """Return the state with the given rates and the others as the constraints demand.
+    """Return the state with the given rates (m/s, rad/s) and the others as the constraints demand.
 
     Where fewer rates are given than there are degrees of freedom, the remaining independent speeds are zero.
     Rates of dependent coordinates may be given as well: the speeds nearest to zero that fulfil all are taken.

@@ -13,7 +13,7 @@ from singletrack.errors import ModelError, unknown_name
 from singletrack.multibody.engine.articulated import tree_expression
 from singletrack.multibody.engine.assembly import SINGULAR_HERE, refuse_undefined, span_of
 from singletrack.multibody.engine.kept import kept
-from singletrack.multibody.engine.reduction import MOST_ROWS, reduced_expression
+from singletrack.multibody.engine.reduction import is_short, reduced_expression
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -22,10 +22,18 @@ if TYPE_CHECKING:
     from singletrack.multibody.engine.partition import Partition
     from singletrack.multibody.engine.system import System
 
-__all__ = ["Response", "accelerations", "expression", "loop_forces", "reduced", "split_wheel_forces", "wheel_forces"]
+__all__ = [
+    "Response",
+    "accelerations",
+    "by_hand",
+    "expression",
+    "loop_forces",
+    "reduced",
+    "split_wheel_forces",
+    "wheel_forces",
+]
 
 MASSLESS = 1e-13
-MOST_COORDINATES = 40
 
 
 @dataclass(frozen=True, eq=False)
@@ -87,6 +95,23 @@ def expression(model: Model, parts: Partition) -> ca.Function:
     return function
 
 
+def by_hand(model: Model, parts: Partition) -> bool:
+    """Tell whether the dependent speeds are eliminated symbolically, in the order of the partition's pivots.
+
+    Parameters
+    ----------
+    model : Model
+        The machine.
+    parts : Partition
+        Which speeds are independent.
+    """
+    key = ("by hand", parts)
+    if key not in model.cache:
+        model.cache[key] = is_short(model.equations, parts, len(model.system.coordinates))
+    answer: bool = model.cache[key]
+    return answer
+
+
 def _solve(matrix: Any, right: Any) -> Any:
     return ca.solve(matrix, right, "lapacklu") if matrix.shape[0] > 1 else right / matrix
 
@@ -95,7 +120,7 @@ def _reduced(model: Model, parts: Partition) -> ca.Function:
     system = model.system
     if not system.rows and parts.independent_speeds == tuple(range(len(system.coordinates))):
         return tree_expression(system, model.equations)
-    if len(parts.rows) <= MOST_ROWS and len(system.coordinates) <= MOST_COORDINATES:
+    if by_hand(model, parts):
         sizes = len(system.coordinates), len(system.inputs), len(system.rows)
         return reduced_expression(model.equations, parts, sizes)
     return _reduced_numerically(model, parts)
@@ -131,7 +156,7 @@ def _reduced_numerically(model: Model, parts: Partition) -> ca.Function:
 
 
 def accelerations(state: State, inputs: Mapping[str, float] | None = None) -> Response:
-    """Return the accelerations and constraint forces of a state under constant inputs.
+    """Return the accelerations and constraint forces of a state under constant inputs (N, N m).
 
     Raises
     ------

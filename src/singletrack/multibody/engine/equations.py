@@ -20,6 +20,7 @@ from singletrack.errors import ModelError
 from singletrack.multibody.engine.constraints import (
     Contact,
     closure_wrench,
+    constraint_rate_changes,
     constraint_rates,
     constraint_wrenches,
     holonomic_residual,
@@ -205,7 +206,7 @@ def derive(system: System) -> Equations:
     n = len(system.coordinates)
     zero = ca.SX.zeros(n)
     jacobian, mass = ca.jacobian(s.rate, s.u), ca.jacobian(s.demand, s.a)
-    rate_change = ca.jtimes(s.rate, s.q, s.u)
+    rate_change = constraint_rate_changes(system, s.frames, s.q, s.u)
     bias = ca.substitute(s.demand, s.a, zero)
     residual = s.demand - ca.jtimes(s.rate, s.u, s.m, True)  # noqa: FBT003  # CasADi's flag: transposed
     dq, du = ca.SX.sym("dq", n), ca.SX.sym("du", n)
@@ -249,7 +250,7 @@ def _compile(outputs: dict[str, tuple[tuple[SX, ...], tuple[SX, ...]]], gravity:
     names = sorted(free)
     p = ca.vertcat(gravity, *(free[name] for name in names))
     functions = {
-        name: ca.Function(name, [*arguments, p], [ca.densify(result) for result in results])
+        name: ca.Function(name, [*arguments, p], ca.cse([ca.densify(result) for result in results]))
         for name, (arguments, results) in outputs.items()
     }
     return Equations(("gravity", *names), **functions)

@@ -64,16 +64,17 @@ def steady_motion(
     model
         The machine.
     coordinates, rates
-        What is given: coordinates, and rates of independent speeds.
+        What is given: coordinates (m, rad), and rates of independent speeds (m/s, rad/s).
     resting
         Names of the independent coordinates that matter and stay constant, such as lean and steer; those not
         given are sought, and their rates are zero.
     guess, guess_rates
-        Where to start with the others. The motion found is the nearest of a family in the sense of Gauss-Newton.
+        Where to start with the others, in the same units. The motion found is the nearest of a family in the sense of
+        Gauss-Newton.
     inputs, adjust
-        Constant inputs, and names of inputs to be sought, such as the torque that holds a turn.
+        Constant inputs (N, N m), and names of inputs to be sought, such as the torque that holds a turn.
     parameters
-        Values of parameters.
+        Values of parameters, SI.
 
     Raises
     ------

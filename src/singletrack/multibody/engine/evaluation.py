@@ -43,7 +43,8 @@ class Evaluator:
         parts, n, system = state.partition, len(state.q), state.model.system
         self.free = np.array(parts.independent_speeds, dtype=int)
         self.low, self.high = np.nextafter(start, np.inf), np.nextafter(stop, -np.inf)
-        self.q, self.u_i, self.f = np.empty(n), np.empty(len(self.free)), np.zeros(len(system.inputs))
+        self.y, self.f = np.empty(n + len(self.free)), np.zeros(len(system.inputs))
+        self.q, self.u_i = self.y[:n], self.y[n:]
         self.u, self.a, self.multipliers = np.empty(n), np.empty(n), np.empty(len(system.rows))
         buffer: Any
         buffer, self._evaluate = reduced(state.model, parts).buffer()
@@ -76,9 +77,10 @@ class Evaluator:
         t : float
             In s.
         """
-        inside = min(max(t, self.low), self.high)
-        for i, signal in enumerate(self.driven):
-            self.f[i] = signal(inside)
+        if self.driven:
+            inside = min(max(t, self.low), self.high)
+            for i, signal in enumerate(self.driven):
+                self.f[i] = signal(inside)
         return self.f
 
     def respond(self, t: float, q: Array, u_i: Array) -> None:
@@ -94,6 +96,9 @@ class Evaluator:
             Independent speeds.
         """
         self.q[:], self.u_i[:] = q, u_i
+        self._respond(t)
+
+    def _respond(self, t: float) -> None:
         self.inputs(t)
         try:
             if self.drives is None:
@@ -121,9 +126,9 @@ class Evaluator:
             In s.
         y : array, shape (n + m,)
         """
-        n = len(self.q)
-        self.respond(t, y[:n], y[n:])
-        return np.concatenate([self.u, self.a[self.free]])
+        self.y[:] = y
+        self._respond(t)
+        return np.concatenate((self.u, self.a.take(self.free)))
 
     def close(self, q: Array) -> Array | None:
         """Return the coordinates with the dependent ones put back onto the constraints; None where that fails.

@@ -159,7 +159,7 @@ def linearise(
     state
         A steady motion: equilibrium, straight running, steady turning (see :func:`steady_motion`).
     inputs
-        Constant inputs of the steady motion, by name.
+        Constant inputs of the steady motion, by name (N, N m).
     keep
         Names of the coordinates to keep; found automatically where None.
     outputs

@@ -89,7 +89,7 @@ class Model:
         q : array, shape (n,)
             Joint coordinates, m or rad.
         p : array, shape (parameters,)
-            Values of the parameters, gravity first.
+            Values of the parameters, gravity (m/s²) first.
         """
         phi, gradient = self.equations.holonomic(q, p)
         return phi.full().ravel(), gradient.full()
@@ -102,7 +102,7 @@ class Model:
         q : array, shape (n,)
             Joint coordinates, m or rad.
         p : array, shape (parameters,)
-            Values of the parameters, gravity first.
+            Values of the parameters, gravity (m/s²) first.
         """
         jacobian, mass = self.equations.kinetics(q, p)
         return jacobian.full(), mass.full()

@@ -221,7 +221,7 @@ def buckling_load(state: State, load: str, inputs: Mapping[str, float] | None = 
     load
         Name of the input.
     inputs
-        Others, constant.
+        Others, constant (N, N m).
 
     Raises
     ------

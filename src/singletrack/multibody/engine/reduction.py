@@ -21,10 +21,11 @@ if TYPE_CHECKING:
     from singletrack.multibody.engine.equations import Equations
     from singletrack.multibody.engine.partition import Partition
 
-__all__ = ["MOST_ROWS", "pivot_growth", "reduced_expression"]
+__all__ = ["elimination_operations", "is_short", "pivot_growth", "reduced_expression"]
 
-MOST_ROWS = 24
-"""Larger systems are solved numerically: their expressions would be longer than a solver's loops."""
+MOST_ROWS, MOST_COORDINATES = 24, 40
+MOST_OPERATIONS, MOST_PASSES = 5000, 400
+"""Larger systems are solved numerically, if not many zeros make their expressions shorter than a solver's loops."""
 
 
 def _entries(matrix: Any) -> list[list[Any]]:
@@ -125,6 +126,52 @@ def reduced_expression(equations: Equations, parts: Partition, sizes: tuple[int,
     return ca.Function("reduced", [q, ui, f, p], ca.cse([u, a, multipliers]))
 
 
+def elimination_operations(pattern: Array) -> int:
+    """Return how many multiplications elimination in the order of a block takes.
+
+    Parameters
+    ----------
+    pattern : bool array, shape (k, k)
+        Which entries are not zero.
+
+    Examples
+    --------
+    >>> elimination_operations(np.eye(5, dtype=bool)), elimination_operations(np.ones((5, 5), dtype=bool))
+    (0, 40)
+    """
+    a, count = pattern.copy(), 0
+    for k in range(len(a)):
+        below, right = np.flatnonzero(a[k + 1 :, k]) + k + 1, np.flatnonzero(a[k, k + 1 :]) + k + 1
+        count += len(below) * (1 + len(right))
+        a[np.ix_(below, right)] = True
+    return count
+
+
+def is_short(equations: Equations, parts: Partition, coordinates: int) -> bool:
+    """Tell whether elimination by hand is shorter than a solver's loops: few rows, or nearly all entries zero.
+
+    Chains of loops stay short however long they are, as every loop shares bodies with its neighbours alone.
+
+    Parameters
+    ----------
+    equations : Equations
+        Of the machine.
+    parts : Partition
+        Which speeds are independent.
+    coordinates : int
+        How many there are.
+    """
+    if len(parts.rows) <= MOST_ROWS and coordinates <= MOST_COORDINATES:
+        return True
+    if coordinates * len(parts.independent_speeds) > MOST_PASSES:
+        return False
+    q, p = ca.SX.sym("q", coordinates), ca.SX.sym("p", len(equations.parameter_names))
+    jacobian = ca.sparsify(equations.kinetics(q, p)[0])
+    pattern = np.array(ca.DM(jacobian.sparsity(), 1)) != 0
+    own = pattern[np.ix_(list(parts.pivots), list(parts.dependent_speeds))]
+    return elimination_operations(own) <= MOST_OPERATIONS
+
+
 def pivot_growth(block: Array) -> float:
     """Return how much elimination in the order of a block (k, k) magnifies errors: its largest number over a pivot.
 
@@ -137,7 +184,8 @@ def pivot_growth(block: Array) -> float:
         least = min(least, abs(pivot))
         if pivot == 0.0:
             return np.inf
-        if k + 1 < len(a):
-            a[k + 1 :, k + 1 :] -= np.outer(a[k + 1 :, k] / pivot, a[k, k + 1 :])
-            most = max(most, float(np.max(abs(a[k + 1 :, k + 1 :]))))
+        below = np.flatnonzero(a[k + 1 :, k]) + k + 1
+        if len(below):
+            a[below, k + 1 :] -= np.outer(a[below, k] / pivot, a[k, k + 1 :])
+            most = max(most, float(np.max(abs(a[below, k + 1 :]), initial=0.0)))
     return most / least if len(a) else 1.0

@@ -110,7 +110,8 @@ class Spacar:
         Parameters
         ----------
         e, ed
-            Values and rates of dynamic deformations by (element, component); where not given, those of the file.
+            Values and rates of dynamic deformations by (element, component), in the units of the file, angles in rad;
+            where not given, those of the file.
         time
             For what is prescribed, s.
 
@@ -166,14 +167,14 @@ class Spacar:
         return index
 
     def forces(self, forces: Mapping[Key, float] | None) -> Array:
-        """Return generalised forces (q,) of a mapping by (element, component)."""
+        """Return generalised forces (q,), N or N m, of a mapping of forces by (element, component)."""
         of_e, of_x = np.zeros(len(self.layout.e_is)), np.zeros(len(self.layout.x_is))
         for key, value in (forces or {}).items():
             of_e[self._dynamic(key, ("dynamic",))] = value
         return self.rows.generalised(of_e, of_x)
 
     def motion(self, state: State | None = None, forces: Mapping[Key, float] | None = None) -> Motion:
-        """Return a state (the initial one) with its accelerations and stresses under forces on dynamic deformations."""
+        """Return a state (the initial one) with accelerations and stresses under forces (N, N m) on deformations."""
         return accelerate(self.rows, self.state() if state is None else state, self.forces(forces))
 
     def accelerations(
@@ -187,8 +188,8 @@ class Spacar:
         Parameters
         ----------
         e, ed, forces
-            Values, rates and applied forces of dynamic deformations by (element, component); forces are zero where not
-            given, values and rates those of the file.
+            Values, rates and applied forces (N, N m) of dynamic deformations by (element, component); forces are zero
+            where not given, values and rates those of the file.
 
         Examples
         --------
@@ -217,7 +218,7 @@ class Spacar:
         return small_motions(self.rows, self.motion() if motion is None else motion)
 
     def equilibrium(self, factor: float = 1.0) -> Motion:
-        """Return the equilibrium under the constant loads, times a factor, and weight; at rest."""
+        """Return the equilibrium under the constant loads, times a factor without unit, and weight; at rest."""
         return equilibrium(self.rows, replace(self.state(), v=np.zeros_like(self.layout.drawn)), factor)
 
     def frequencies(self, motion: Motion | None = None) -> tuple[Array, Array]:
@@ -233,12 +234,12 @@ class Spacar:
         return listing(self.layout, self.rows)
 
     def by_element(self, values: Array) -> dict[int, list[float]]:
-        """Return values of deformations (m,) by element."""
+        """Return values of deformations (m,), of any unit, by element."""
         index, d = self.layout.e_index, self.description
         return {k: [float(values[index[k, i + 1]] + 0.0) for i in range(d.components(k))] for k in d.elements}
 
     def by_node(self, values: Array) -> dict[int, list[float]]:
-        """Return values of coordinates (n,) by node."""
+        """Return values of coordinates (n,), of any unit, by node."""
         index, d = self.layout.x_index, self.description
         return {k: [float(values[index[k, i + 1]] + 0.0) for i in range(d.width(k))] for k in d.nodes}
 
