@@ -14,7 +14,7 @@ test: setup-dev check
 
 # Lines and branches against a floor (pyproject.toml); tracing is slow, so that `make test` does without.
 coverage: setup-dev
-	$(BIN)/python -m pytest -n auto -m "not slow" --cov --cov-report=term
+	$(BIN)/python -m pytest -n auto --cov --cov-report=term
 
 fuzz: setup-dev
 	$(BIN)/python tests/fuzz/run.py --count 6000

@@ -173,3 +173,13 @@ def test_the_environment_says_how_many_threads(
         monkeypatch.setenv(name, value) if value else monkeypatch.delenv(name, raising=False)
     assert threads() == (expected or threads())
     assert threads() >= 1
+
+
+@pytest.mark.parametrize("shape", [(0,), (1,), (2, 0, 3)])
+def test_batches_of_none_and_of_one(shape: tuple[int, ...]) -> None:
+    rider = load_rider("rider-a").on(load_bicycle("browser"))
+    model = closed_form.coefficients(load_bicycle("browser").replace(trail=np.full(shape, 0.05)), rider, "upright")
+    assert model.shape == shape
+    assert eigenvalues(model, SPEEDS).shape == (*shape, 3, 4)
+    assert modes(model, SPEEDS).eigenmotions.shape == (*shape, 3, 4, 2)
+    assert critical_speeds(model).ranges.shape == (*shape, 3, 2)

@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pytest
 
-from singletrack import InputError, PostureError, coefficients, load_bicycle, load_rider
+from singletrack import InputError, coefficients, load_bicycle, load_rider
 from singletrack.library.template import template
 from singletrack.posture import load_posture, seat
 from singletrack.posture.describe import mechanism_lines
-from singletrack.posture.inverses import _inverse
+from singletrack.posture.inverses import _inverse, _singular
 from singletrack.posture.mechanism_file import parse_mechanism
 
 if TYPE_CHECKING:
@@ -124,6 +124,16 @@ def test_a_preload_is_a_spring_without_damping_and_works_in_proportion() -> None
     np.testing.assert_allclose(back[1], -once[1], rtol=1e-12)
 
 
+def test_a_spring_of_one_with_a_preload_of_one_is_a_spring_with_a_preload() -> None:
+    def stiffness(laws: str) -> np.ndarray:
+        text = TEXT.replace('axis = "right elbow"', f'axis = "right elbow"\n{laws}')
+        return coefficients(BICYCLE, RIDER, parse_mechanism(text, "mine.toml")).S0
+
+    both = stiffness("stiffness = 1\npreload = 1")
+    np.testing.assert_allclose(both, stiffness("stiffness = 1") + stiffness("preload = 1"), rtol=1e-12)
+    assert both[1, 1] > stiffness("preload = 1")[1, 1]
+
+
 def test_preloads_of_two_joints_add_up() -> None:
     def stiffness(*joints: str) -> np.ndarray:
         text = TEXT
@@ -140,27 +150,37 @@ def test_singular_loops_are_named() -> None:
     """Of a matrix whose only defect is one empty row and one empty column: that row's loop, that column's joint."""
     posture = seat(BICYCLE, RIDER, "upright")
     joints, loops = posture.tree.dependent, posture.loops
+    matrices, names = [], []
     for row in range(6):
         for column in range(6):
             ones = iter(set(range(6)) - {column})
-            matrix = np.zeros((1, 6, 6))
+            matrix = np.zeros((6, 6))
             for other in set(range(6)) - {row}:
-                matrix[0, other, next(ones)] = 1.0 + other / 10
-            with pytest.raises(PostureError) as caught:
-                _inverse(matrix, posture, ())
-            name = posture.joints[joints[column]].name
-            assert f"joint {name} is not determined by the loops, loop {loops[row % 2].name} cannot" in str(
-                caught.value
-            )
+                matrix[other, next(ones)] = 1.0 + other / 10
+            matrices.append(matrix)
+            names.append((posture.joints[joints[column]].name, loops[row % 2].name))
+    _, bad = _inverse(np.array(matrices))
+    assert bad is not None
+    assert bad.all()
+    fault = _singular(posture, np.array(matrices), bad, np.arange(36), 36, (36,))
+    assert list(zip(fault.values["joint"], fault.values["loop"], strict=True)) == names
+    assert fault.bad.all()
 
 
 def test_loops_are_refused_where_they_are_singular_and_not_before() -> None:
     """Just on either side of the bound of the singular values' ratio, whatever quicker test comes before."""
-    posture = seat(BICYCLE, RIDER, "upright")
-    matrix = np.diag([1.0, 1.0, 1.0, 1.0, 1.0, 1.5e-6])[None]
-    inverse, faults = _inverse(matrix, posture, ())
-    np.testing.assert_allclose(inverse @ matrix, np.eye(6)[None], atol=1e-12)
-    assert not faults
-    matrix[0, 5, 5] = 0.5e-6
-    with pytest.raises(PostureError):
-        _inverse(matrix, posture, ())
+    matrix = np.array([np.diag([1.0, 1.0, 1.0, 1.0, 1.0, least]) for least in (1.5e-6, 0.5e-6, 1.0)])
+    inverse, bad = _inverse(matrix)
+    assert bad is not None
+    assert bad.tolist() == [False, True, False]
+    np.testing.assert_allclose((inverse @ matrix)[[0, 2]], [np.eye(6)] * 2, atol=1e-12)
+    assert np.isnan(inverse[1]).all()
+
+
+@pytest.mark.parametrize("sign", ["", "-"])
+@pytest.mark.parametrize("place", [0, 1, 2])
+def test_axes_are_those_of_the_frame(sign: str, place: int) -> None:
+    """x, y, z and what points the other way."""
+    wanted = np.eye(3)[place] * (-1.0 if sign else 1.0)
+    plan = joint(HINGE.replace('axis = "right elbow"', f'axis = "{sign}{"xyz"[place]}"'))
+    assert plan.axis.vector == tuple(wanted)

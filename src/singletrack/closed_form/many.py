@@ -122,7 +122,7 @@ def many_designs(
 
 def _run(program: Program, values: tuple[Number, ...]) -> Array:
     """Return the entries (rows, N) that a program makes of values, arrays (N,) or numbers."""
-    count = max(np.size(value) for value in values)
+    (count,) = np.broadcast_shapes(*map(np.shape, values))
     computed = _Kernels.computed[program.name] = _Kernels.computed.get(program.name, 0) + count
     if computed > _WORTH_COMPILING:
         use_compiled(program)

@@ -104,7 +104,7 @@ class Options:
         Parameters
         ----------
         which : slice or array of int
-            Designs, as numbered along one axis.
+            Indices of designs, as numbered along one axis.
         shape : tuple of int
             Of the batch, to which springs and dampers broadcast.
         """

@@ -162,3 +162,27 @@ def test_a_drive_is_not_given_twice_and_needs_a_freedom() -> None:
     both = {name: (lambda _, x=start[name]: (x, 0.0, 0.0)) for name in ("crank", "piston")}
     with pytest.raises(ModelError, match="crank, piston: the constraints leave no such freedom"):
         simulate(start, np.array([0.0, 1.0]), prescribed=both)
+
+
+def test_a_hand_that_cannot_follow_is_named() -> None:
+    """Upright on the Browser the outer hand follows up to 0.40 rad of steer; a drive that goes on is stopped there."""
+    model = bicycle_model(load_bicycle("browser"), load_rider("rider-a"), "upright")
+    law = {"steer": lambda t: (0.3 * t * t, 0.6 * t, 0.6)}
+    with pytest.raises(ModelError, match=r"hand cannot follow: steer is prescribed beyond what the loops allow"):
+        simulate(ride(model, 2.0), np.array([0.0, 3.0]), prescribed=law, rtol=1e-7, atol=1e-8)
+
+
+@pytest.mark.parametrize("law", [0.1, lambda t: (t, 1.0)])
+def test_a_motion_is_a_function_of_three_numbers(law: Any) -> None:
+    with pytest.raises(ModelError, match="returns three numbers"):
+        simulate(assemble(crane()), np.array([0.0, 1.0]), prescribed={"slide": law})
+
+
+@pytest.mark.parametrize("force", [np.nan, np.inf, lambda _: np.nan, lambda t: np.nan if t > 0.5 else 0.0])
+def test_inputs_that_are_not_finite_end_at_once(force: Any) -> None:
+    """A number is refused by name; a function that begins or goes on so ends the run, and no loop goes on for ever."""
+    model = build(crane().system.replace(inputs=[CoordinateForce("winch", "slide")]))
+    with pytest.raises(
+        ModelError, match=r"input winch: (nan|inf); allowed: a finite number|an input is not finite there"
+    ):
+        simulate(assemble(model), np.array([0.0, 1.0]), {"winch": force})

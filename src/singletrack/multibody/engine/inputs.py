@@ -10,6 +10,7 @@ import numpy as np
 
 from singletrack.arrays import Array
 from singletrack.errors import ModelError, unknown_name
+from singletrack.multibody.engine.model import finite
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -154,10 +155,12 @@ class Function:
 Given: TypeAlias = "Signal | float | Callable[[float], float]"
 
 
-def _signal(value: Any) -> Signal:
-    if isinstance(value, (Constant, Pulse, Sampled, Function)):
+def _signal(name: str, value: Any) -> Signal:
+    if isinstance(value, Constant):
+        return Constant(finite("input", name, value.value))
+    if isinstance(value, (Pulse, Sampled, Function)):
         return value
-    return Function(value) if callable(value) else Constant(float(value))
+    return Function(value) if callable(value) else Constant(finite("input", name, value))
 
 
 def signals(system: System, inputs: Mapping[str, Given] | None) -> list[Signal]:
@@ -173,10 +176,10 @@ def signals(system: System, inputs: Mapping[str, Given] | None) -> list[Signal]:
     Raises
     ------
     ModelError
-        For an input the machine does not have.
+        For an input the machine does not have, or a number that is not finite.
     """
     names = [given.name for given in system.inputs]
     for name in inputs or {}:
         if name not in names:
             raise ModelError(unknown_name("input", name, names))
-    return [_signal((inputs or {}).get(name, 0.0)) for name in names]
+    return [_signal(name, (inputs or {}).get(name, 0.0)) for name in names]

@@ -57,8 +57,13 @@ class Prescribed:
 
     def __call__(self, t: float) -> tuple[float, float, float]:
         """Return value, rate and acceleration at a time."""
-        value, rate, acceleration = self.law(t)
-        return float(value), float(rate), float(acceleration)
+        try:
+            value, rate, acceleration = self.law(t)
+            return float(value), float(rate), float(acceleration)
+        except (TypeError, ValueError):
+            raise ModelError(
+                "prescribed motion: must be a function of time that returns three numbers: value, rate, acceleration"
+            ) from None
 
     @classmethod
     def through(cls, times: Array, values: Array) -> Self:

@@ -28,6 +28,7 @@ WORSE = 4.0
 HOPELESS = 1e9
 SHORTEST = 1e-12
 MOST_TRIES = 100
+CRAWLING, MOST_CRAWLED = 1e-8, 20
 GIVES_WAY = "the constraints lose rank, the loops can move in more than one way"
 IMPLICIT = ("Radau", "BDF", "LSODA")
 
@@ -59,6 +60,7 @@ class Run:
     next_sample: int = 1
     ended: str = ""
     firm: tuple[float, State] = field(init=False)
+    crawled: int = 0
 
     def __post_init__(self) -> None:
         self.time = float(self.times[0])
@@ -142,8 +144,21 @@ def _accept(run: Run, after: State, t: float, motion: Callable[[float], Moment |
         run.firm = run.time, run.state
     _note(run, start, motion)
     run.steps_left -= 1
+    if run.drives.names and not run.ended:
+        _refuse_crawling(run, run.time - start)
     if run.steps_left <= 0 and not run.ended:
         raise HaltError(f"gave up at t = {run.time:.6g} s: all steps used up, the last of {run.time - start:.3g} s")
+
+
+def _refuse_crawling(run: Run, step: float) -> None:
+    """Stop where a prescribed motion drives loops into a position that they cannot pass: ever faster, ever shorter."""
+    run.crawled = run.crawled + 1 if step < CRAWLING * max(1.0, abs(run.time)) else 0
+    if run.crawled > MOST_CRAWLED:
+        loops = ", ".join(weakest(run.state, len(run.state.partition.rows), run.usual))
+        raise HaltError(
+            f"at t = {run.time:.6g} s {loops} cannot follow: {', '.join(run.drives.names)} is prescribed beyond what "
+            "the loops allow"
+        )
 
 
 def _carry_on(solver: Any, evaluator: Evaluator, after: State) -> None:
@@ -164,6 +179,8 @@ def _solver(run: Run, evaluator: Evaluator, stop: float) -> Any:
         options["first_step"] = min(run.first_step, stop - run.time)
     if run.method in IMPLICIT and not run.drives.names:
         options["jac"] = slope_jacobian(evaluator)
+    if not np.all(np.isfinite(evaluator.slope(run.time, y))):
+        raise HaltError(_stuck(run))
     try:
         return getattr(scipy.integrate, run.method)(evaluator.slope, run.time, y, stop, **options)
     except (ValueError, ArithmeticError, np.linalg.LinAlgError, RuntimeError):
@@ -235,6 +252,8 @@ def _choose_anew(run: Run) -> None:
 
 
 def _stuck(run: Run) -> str:
+    if not np.all(np.isfinite([signal(t) for signal in run.signals for t in (run.time, run.time + CRAWLING)])):
+        return f"the simulation cannot go on at t = {run.time:.6g} s: an input is not finite there"
     return (
         f"the simulation cannot go on at t = {run.time:.6g} s: the steps become too short; a spring or damper may be "
         "too stiff for the method (Radau is for stiff machines), or something grows without bound"
