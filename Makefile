@@ -32,10 +32,11 @@ format: setup-dev
 benchmark: setup-dev
 	$(BIN)/python -m pytest benchmarks --benchmark-enable
 
-# The site: built into docs/_build/html, executed again only where something has changed; warnings are errors.
+# The site: built into docs/_build/html, executed again only where something has changed; warnings are errors. In one
+# process, since some scripts of the gallery compute with JAX, whose threads do not survive a fork.
 .PHONY: docs
 docs: setup-docs
-	$(BIN)/python -m sphinx -W --keep-going --quiet -j auto -b html docs docs/_build/html
+	$(BIN)/python -m sphinx -W --keep-going --quiet -b html docs docs/_build/html
 	@echo "docs/_build/html/index.html"
 
 setup: $(VENV)/ready

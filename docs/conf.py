@@ -14,7 +14,7 @@ sys.path.insert(0, str(HERE / "_ext"))
 # For the notebooks, too: the program on their path, and no threads for small matrices.
 os.environ["PATH"] = os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])
 os.environ["OMP_NUM_THREADS"] = "1"
-os.environ["TERM"] = "dumb"  # no bars of progress
+os.environ["TTY_COMPATIBLE"] = "0"  # no bars of progress
 
 project = "singletrack"
 author = "the singletrack developers"

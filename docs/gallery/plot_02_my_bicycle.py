@@ -11,9 +11,7 @@ one to fill in.
 
 import numpy as np
 
-from singletrack import coefficients, load_bicycle
-from singletrack.analysis.designs import Design
-from singletrack.analysis.sensitivity import sensitivity
+from singletrack import Design, coefficients, load_bicycle, sensitivity
 from singletrack.analysis.uncertainty import eigenvalue_uncertainty, linear_uncertainty
 
 mine = load_bicycle("my-bicycle.toml")

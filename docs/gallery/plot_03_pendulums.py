@@ -13,8 +13,7 @@ forwards, read off with the errors of a careful afternoon, and given to
 import matplotlib.pyplot as plt
 import numpy as np
 
-from singletrack import load_bicycle
-from singletrack.measuring.measurement import measure
+from singletrack import load_bicycle, measure
 from singletrack.measuring.oscillation import fit_oscillation
 
 truth = load_bicycle("browser")

@@ -9,8 +9,7 @@ with its rider's hands on the bar? Everything takes arrays where it takes number
 import matplotlib.pyplot as plt
 import numpy as np
 
-from singletrack import coefficients, load_bicycle, load_rider
-from singletrack.body.fit import elbow_angle
+from singletrack import coefficients, elbow_angle, load_bicycle, load_rider
 
 bicycle, rider = load_bicycle("stratos"), load_rider("rider-a")
 head_angles = np.radians(np.linspace(60.0, 80.0, 121))

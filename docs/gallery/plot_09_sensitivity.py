@@ -7,11 +7,7 @@ moves the weave speed, and by how much? Derivatives are exact here (no differenc
 change that one can make: 10 mm, 1 degree, 1 kg.
 """
 
-from singletrack import load_bicycle, load_rider
-from singletrack.analysis.designs import Design
-from singletrack.analysis.sensitivity import sensitivity
-from singletrack.body.fit import elbow_angle
-from singletrack.posture import Options
+from singletrack import Design, Options, elbow_angle, load_bicycle, load_rider, sensitivity
 from singletrack.present.tornado import tornado_figure
 
 bicycle, rider = load_bicycle("stratos"), load_rider("rider-a")

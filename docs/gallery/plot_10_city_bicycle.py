@@ -10,12 +10,10 @@ the steer axis and the sweep of the bar free within usual limits, and a wheel th
 import matplotlib.pyplot as plt
 import numpy as np
 
-from singletrack import load_bicycle, load_rider
+from singletrack import Design, load_bicycle, load_rider, search
 from singletrack.analysis.aims import LowestWeave, WidestRange
-from singletrack.analysis.designs import Design
 from singletrack.analysis.outline import outline
 from singletrack.analysis.problem import Keep, Problem
-from singletrack.analysis.search import search
 from singletrack.linear import critical_speeds, eigenvalues
 
 design = Design.of(load_bicycle("browser"), load_rider("rider-a"), "upright")

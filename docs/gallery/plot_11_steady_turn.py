@@ -10,8 +10,7 @@ straight running to where it ends.
 import matplotlib.pyplot as plt
 import numpy as np
 
-from singletrack import load_bicycle, load_rider, turn
-from singletrack.public.turning import turn_family
+from singletrack import load_bicycle, load_rider, turn, turn_family
 
 bicycle, rider = load_bicycle("browser"), load_rider("rider-a")
 corner = turn(bicycle, rider, "upright", speed=5.0, radius=10.0)

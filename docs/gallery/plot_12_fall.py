@@ -10,9 +10,8 @@ that steer into the fall.
 import matplotlib.pyplot as plt
 import numpy as np
 
-from singletrack import load_bicycle, load_rider
+from singletrack import load_bicycle, load_rider, ride_for
 from singletrack.parameters import Feedback
-from singletrack.public.riding import ride_for
 
 bicycle, rider = load_bicycle("browser"), load_rider("rider-a")
 knock = {"speed": 4.0, "push": 0.3, "duration": 5.0}  # m/s; rad/s of lean to the right; s

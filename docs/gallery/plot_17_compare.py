@@ -9,9 +9,7 @@ What differs, in numbers that one can feel?
 import matplotlib.pyplot as plt
 import numpy as np
 
-from singletrack import coefficients, load_bicycle, load_rider
-from singletrack.analysis.compare import compare
-from singletrack.analysis.designs import Design
+from singletrack import Design, coefficients, compare, load_bicycle, load_rider
 from singletrack.analysis.outline import outline
 
 rider = load_rider("rider-a")

@@ -10,11 +10,10 @@ package, and so does the bicycle. To show the other half, from a record to an ei
 import matplotlib.pyplot as plt
 import numpy as np
 
-from singletrack import coefficients, load_bicycle
+from singletrack import coefficients, load_bicycle, ride_for
 from singletrack.control import identify_mode
 from singletrack.control.agreement import compare_modes
 from singletrack.library.measured import load_measured_modes
-from singletrack.public.riding import ride_for
 
 bicycle = load_bicycle("kooijman-2008")
 model = coefficients(bicycle)

@@ -15,43 +15,68 @@ from singletrack.version import __version__
 
 if TYPE_CHECKING:
     from singletrack import catalogue, spacar
-    from singletrack.body.fit import fit
+    from singletrack.analysis.compare import compare
+    from singletrack.analysis.designs import Design
+    from singletrack.analysis.search import search
+    from singletrack.analysis.sensitivity import sensitivity
+    from singletrack.body.fit import elbow_angle, fit
     from singletrack.library import load_bicycle, load_rider
+    from singletrack.measuring.measurement import measure
     from singletrack.parameters import Bicycle, Rider
+    from singletrack.posture import Options
     from singletrack.public import CoefficientMatrices, coefficients
-    from singletrack.public.turning import turn
+    from singletrack.public.riding import ride_for
+    from singletrack.public.turning import turn, turn_family
     from singletrack.webpage import page
 
 __all__ = [
     "Bicycle",
     "CoefficientMatrices",
+    "Design",
     "InputError",
     "OddityWarning",
+    "Options",
     "PostureError",
     "Rider",
     "SingletrackError",
     "__version__",
     "catalogue",
     "coefficients",
+    "compare",
+    "elbow_angle",
     "fit",
     "load_bicycle",
     "load_rider",
+    "measure",
     "page",
+    "ride_for",
+    "search",
+    "sensitivity",
     "spacar",
     "turn",
+    "turn_family",
 ]
 
 # Where each public name lives; loaded on first use, so that `import singletrack` stays light.
 _LAZY = {
     "Bicycle": "singletrack.parameters",
     "CoefficientMatrices": "singletrack.public",
-    "Rider": "singletrack.parameters",
     "coefficients": "singletrack.public",
+    "compare": "singletrack.analysis.compare",
+    "Design": "singletrack.analysis.designs",
+    "elbow_angle": "singletrack.body.fit",
     "fit": "singletrack.body.fit",
     "load_bicycle": "singletrack.library",
     "load_rider": "singletrack.library",
-    "turn": "singletrack.public.turning",
+    "measure": "singletrack.measuring.measurement",
+    "Options": "singletrack.posture",
     "page": "singletrack.webpage",
+    "ride_for": "singletrack.public.riding",
+    "Rider": "singletrack.parameters",
+    "search": "singletrack.analysis.search",
+    "sensitivity": "singletrack.analysis.sensitivity",
+    "turn": "singletrack.public.turning",
+    "turn_family": "singletrack.public.turning",
 }
 _MODULES = ("catalogue", "spacar")
 

@@ -83,7 +83,9 @@ class AsBalls:
 
     def posed(self, box):  # noqa: ARG002  # there is but one design
         def ball(x: Fraction):
-            return flint.arb(flint.fmpq(x.numerator, x.denominator)) + flint.arb(0, 2.0 ** (20 - flint.ctx.prec))
+            return flint.arb(flint.fmpq(x.numerator, x.denominator)) + flint.arb(
+                0, flint.arb(2) ** (20 - flint.ctx.prec)
+            )
 
         def polynomial(*terms: Fraction):
             return flint.arb_poly([ball(x) if x else flint.arb(0) for x in terms])

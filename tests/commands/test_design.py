@@ -57,6 +57,20 @@ def test_the_front_of_two_aims(capsys):
     assert (np.diff(values[:, 1]) < 0).all()
 
 
+def test_an_interrupted_front_goes_on(capsys, tmp_path):
+    state = tmp_path / "front.json"
+    aims = ["--aim", "widest", "--aim", "effort=4", "--points", "4", "--starts", "2", "--state", str(state), "--json"]
+    assert run(["design", "benchmark", *VARY, *aims]) == 0
+    whole = json.loads(capsys.readouterr().out)
+    data = json.loads(state.read_text())
+    assert len(data["found"]) == 2 * 2 + 2 * 2  # both ends, and from both neighbours at two points between
+    for kept in (1, 5, 8):
+        state.write_text(json.dumps(data | {"found": data["found"][:kept]}))
+        assert run(["design", "benchmark", *VARY, *aims]) == 0
+        assert json.loads(capsys.readouterr().out) == whole
+        assert len(json.loads(state.read_text())["found"]) == 8
+
+
 def test_the_cost_of_control_and_its_gradient():
     design = Design.of(load_bicycle("benchmark"))
     names = ("trail", "gravity", "front_frame_mass")
@@ -143,6 +157,7 @@ def test_a_sheet_stands_for_its_bicycle(capsys, sheet):
     [
         (SHEET, ["--vary", "trail=20mm:80mm"], "trail: cannot vary, it follows"),
         (SHEET, ["--vary", "head_angle=60deg:75deg", "--set", "trail=0.05"], "change the sheet"),
+        (SHEET, ["--vary", "wheel_size=1:2"], "wheel_size: cannot vary, it is no number"),
         (SHEET + 'trail = "20 mm"\n', ["--vary", "head_angle=60deg:75deg"], "trail contradicts itself"),
         (SHEET + 'fork_ofset = "1 mm"\n', ["--vary", "head_angle=60deg:75deg"], "line 7: unknown entry 'fork_ofset'"),
     ],

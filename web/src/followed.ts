@@ -68,7 +68,8 @@ export class FollowedModes {
     const reference = this.ridingNode();
     const up = this.path(reference, gridBetween(reference.v, top));
     const carried = carry(up[up.length - 1], highest).map((column) => (column >= FURTHER ? column : -1));
-    const start = { v: top, roots: highest, columns: nameFour(highest, carried) };
+    const columns = casteringGrows(highest, this.rootsAt(top / 2), nameFour(highest, carried));
+    const start = { v: top, roots: highest, columns };
     this.nodes.push(start, ...this.path(start, gridBetween(0, top).reverse().slice(1)));
   }
 
@@ -112,7 +113,7 @@ export class FollowedModes {
     const next = this.rootsAt(v, node.roots);
     const columns = matched(node, next);
     if (columns !== null) return { v, roots: next, columns };
-    if (Math.abs(v - node.v) <= NARROW * (1 + v) || depth > 40) return { v, roots: next, columns: throughMeeting(node, next) };
+    if (Math.abs(v - node.v) <= NARROW * (1 + v) || depth > 40) return { v, roots: next, columns: throughMeeting(node, next, v > node.v) };
     const middle = this.advance(node, (node.v + v) / 2, depth + 1);
     return this.advance(middle, v, depth + 1);
   }
@@ -185,7 +186,7 @@ function movedLittle(node: Node, next: readonly Complex[], before: number[], aft
 }
 
 /** Columns on the other side of a meeting of two real roots, or of a pair that splits. */
-function throughMeeting(node: Node, next: readonly Complex[]): number[] {
+function throughMeeting(node: Node, next: readonly Complex[], up: boolean): number[] {
   const realBefore = node.roots.filter((root) => root.im === 0).length;
   const realAfter = next.filter((root) => root.im === 0).length;
   const joins = realAfter < realBefore;
@@ -206,12 +207,28 @@ function throughMeeting(node: Node, next: readonly Complex[]): number[] {
   // The lower of two real roots goes with the upper root of the pair.
   const [from, to] = joins ? [near, [upper, lower]] : [[upper, lower], near];
   const columns = new Array<number>(next.length).fill(-1);
-  to.forEach((place, k) => (columns[place] = node.columns[from[k]]));
+  const own = from.map((place) => node.columns[place]);
+  // A pair of castering and a further coordinate splits: castering grows with the speed, the faster is the lower root.
+  const faster = Math.abs(next[to[0]].re) >= Math.abs(next[to[1]].re) ? 0 : 1;
+  const wanted = up ? faster : 1 - faster;
+  if (!joins && own.includes(CASTERING) && Math.max(...own) >= FURTHER && own[wanted] !== CASTERING) own.reverse();
+  to.forEach((place, k) => (columns[place] = own[k]));
   const rest = node.roots.map((_, k) => k).filter((k) => !from.includes(k));
   const others = next.map((_, k) => k).filter((k) => !to.includes(k));
   const restNode = { v: node.v, roots: rest.map((k) => node.roots[k]), columns: rest.map((k) => node.columns[k]) };
   carry(restNode, others.map((k) => next[k])).forEach((column, k) => (columns[others[k]] = column));
   return joins ? weaveGoesOn(columns, to, next) : columns;
+}
+
+/** Columns at the highest speed, where castering is no root that falls: it decays the faster the higher the speed. */
+function casteringGrows(found: readonly Complex[], slower: readonly Complex[], columns: number[]): number[] {
+  const nearest = (wanted: Complex) => Math.min(...slower.map((root) => size(subtract(wanted, root))));
+  const grows = (root: Complex) => root.im === 0 && nearest({ re: root.re / 2, im: 0 }) < nearest(root);
+  const now = columns.findIndex((column, k) => column === CASTERING && found[k].im === 0 && found[k].re > 0);
+  const instead = columns.findIndex((column, k) => column >= FURTHER && grows(found[k]) && found[k].re < 0);
+  const result = [...columns];
+  if (now >= 0 && instead >= 0) [result[now], result[instead]] = [columns[instead], columns[now]];
+  return result;
 }
 
 /** Where half of weave meets another mode's root, the oscillation goes on as weave; its other half takes the other's name. */

@@ -12,7 +12,7 @@ from singletrack.analysis.search import search
 from singletrack.errors import InputError
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Sequence
 
     from singletrack.analysis.aims import Aim
     from singletrack.analysis.problem import Found, Problem
@@ -56,6 +56,7 @@ def pareto_front(
     starts: int = 3,
     seed: int = 0,
     tell: Callable[[Found], object] | None = None,
+    known: Sequence[Found] = (),
 ) -> Front:
     """Return the front of a problem's aim and another.
 
@@ -72,6 +73,8 @@ def pareto_front(
     seed : int
     tell : callable, optional
         Called with each design found.
+    known : sequence of Found
+        What was told by an earlier call with the same arguments, in that order: not searched again.
 
     Raises
     ------
@@ -86,13 +89,20 @@ def pareto_front(
     """
     if points < 3:
         raise InputError(f"points = {points}, must be three or more")
-    best = search(problem, starts, seed, tell=tell)[0]
-    last = search(replace(problem, aim=other), starts, seed, tell=tell)[0]
+    waiting = list(known)
+
+    def searched(what: Problem, count: int, first: np.ndarray | None = None) -> list[Found]:
+        own = waiting[:count]
+        del waiting[:count]
+        return search(what, count, seed, own, tell, first)
+
+    best = searched(problem, starts)[0]
+    last = searched(replace(problem, aim=other), starts)[0]
     low, high = worth(problem, other, last.x), worth(problem, other, best.x)
     found, x = [best.x], best.x
     for limit in np.linspace(high, low, points)[1:-1]:
         limited = replace(problem, limits=((other, float(limit)),))
-        tried = [search(limited, 1, seed, first=start, tell=tell)[0] for start in (x, last.x)]
+        tried = [searched(limited, 1, start)[0] for start in (x, last.x)]
         good = sorted((one for one in tried if one.feasible), key=lambda one: one.value)
         if good:
             x = good[0].x

@@ -67,6 +67,7 @@ def typical_start(sheet: Sheet, base: Geometry, name: str) -> float | None:
         raise InputError(unknown_name("entry of the sheet", name, (*known, *_BARS)), parameters=(name,))
     how = base.notes.get(name)
     reason = f"it follows ({how})" if how and how != "given" else "the sheet does not give it"
+    reason = "it is no number" if entries()[name].unit == "" else reason
     raise InputError(f"{name}: cannot vary, {reason}; allowed: {', '.join(known)}", parameters=(name,))
 
 

@@ -125,7 +125,7 @@ def design_problem(
     over : mapping of str to (str or float, str or float), optional
         Parameters that take every value between two bounds: text such as ``"55 mm"``, or numbers in SI.
     added : mapping of str to array, shape (n, n), optional
-        What is added to matrices, such as by feedback, in shortest decimals.
+        What is added to matrices (N m and its like, SI), such as by feedback, in shortest decimals.
 
     Raises
     ------

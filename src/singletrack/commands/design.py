@@ -79,23 +79,29 @@ def run(
     if len(goals) > 2:
         raise InputError(f"--aim: found {len(goals)}, must be one or two")
     problem = Problem(design, goals[0], parse_bounds(design, vary, "--vary"), _keeps(design, keep or []))
+    asked = (bicycle, *aims, *vary, *(keep or []), repr(options), str(seed))
     if len(goals) == 2:
-        if state is not None or output is not None:
-            raise InputError("--state and -o: are for one aim; a front has many designs")
-        _print_front(problem, goals[1], pareto_front(problem, goals[1], points, starts, seed), json=json)
+        if output is not None:
+            raise InputError("-o: is for one aim; a front has many designs")
+        known, tell = _resumed(state, problem, (*asked, str(points), str(starts)))
+        _print_front(problem, goals[1], pareto_front(problem, goals[1], points, starts, seed, tell, known), json=json)
         return
-    known, tell = _resumed(state, problem, (bicycle, *aims, *vary, *(keep or []), repr(options), str(seed)))
+    known, tell = _resumed(state, problem, asked)
     found = search(problem, starts, seed, known, tell)
     best = found[0]
     if output is not None:
         deliver(text_of(problem.at(best.x).bicycle, output), output)
     if json:
-        own = problem.at(best.x).values()
-        parameters = {name: float(own[name]) for name in problem.names}
-        ends = {"starts": [one.value for one in found]}
-        print_json({"aim": problem.aim.name, "parameters": parameters, **best.to_dict(), **ends})
+        _print_as_json(problem, best, found)
     else:
         _print(problem, best, found)
+
+
+def _print_as_json(problem: Problem, best: Found, found: Sequence[Found]) -> None:
+    own = problem.at(best.x).values()
+    parameters = {name: float(own[name]) for name in problem.names}
+    ends = {"starts": [one.value for one in found]}
+    print_json({"aim": problem.aim.name, "parameters": parameters, **best.to_dict(), **ends})
 
 
 def _adapting(design: Design, options: ModelOptions) -> Design:

@@ -35,6 +35,8 @@ def parse_toml(text: str, where: str, number: Callable[[str], float] = float) ->
     text : str
     where : str
         The file's name, for messages.
+    number : callable
+        What makes a number, as the file has it (no unit), of its digits.
 
     Raises
     ------

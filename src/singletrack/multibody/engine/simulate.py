@@ -18,7 +18,7 @@ from singletrack.errors import ModelError, unknown_name
 from singletrack.multibody.engine.evaluation import Evaluator
 from singletrack.multibody.engine.events import Event, Moment, Watched, default_ends, watched
 from singletrack.multibody.engine.feedback import Controller
-from singletrack.multibody.engine.inputs import signals
+from singletrack.multibody.engine.inputs import Signal, signals
 from singletrack.multibody.engine.prescribed import driven_state
 from singletrack.multibody.engine.results import Snapshot, gather
 from singletrack.multibody.engine.stepping import HaltError, Run, advance
@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
     from singletrack.arrays import Array
-    from singletrack.multibody.engine.inputs import Given
+    from singletrack.multibody.engine.inputs import Given, Signal
     from singletrack.multibody.engine.model import State
     from singletrack.multibody.engine.prescribed import Law, Prescribed
     from singletrack.parameters.feedback import Feedback
@@ -71,19 +71,15 @@ def simulate(
     events
         What to watch for; the moments are in the result's ``event_time``.
     ends
-        Let it end where the machine stops being the one described (see the module's text); by default it does, if no
-        terminal event says otherwise.
+        Let it end where the machine stops being the one described (module's text); by default if no event is terminal.
     singular, trouble
         In a singular position ``stop``, or ``pass`` it where the branch of the motion continues; where the simulation
         cannot go on ``raise``, or ``end`` with the results so far.
-    method, rtol, atol, max_step
-        Integrator of scipy (DOP853 or RK45; Radau for stiff machines), tolerances of a step, longest step, s.
-    most_steps
-        How many steps may be taken, which bounds the time of computing.
+    method, rtol, atol, max_step, most_steps
+        Integrator of scipy (DOP853 or RK45; Radau for stiff machines), tolerances of a step, longest step, s; how many.
     prescribed
-        Coordinates that move as given, by name: functions of time (s) that return value, rate and acceleration, or
-        :class:`Prescribed`. The results' ``input`` has what it takes: on ``steer`` the ``steer torque``, on a
-        coordinate without an input of its own the ``NAME drive``.
+        Coordinates that move as given, by name: :class:`Prescribed`, or functions of time (s) that return value, rate
+        and acceleration. The results' ``input`` has what it takes: ``steer torque``, or the ``NAME drive``.
     feedback, progress
         State feedback with gains that are numbers; what is called with the time reached, s, after every step.
 
@@ -109,19 +105,26 @@ def simulate(
     """
     times = _checked(times, method, singular, trouble)
     state, drives = driven_state(state, prescribed, float(times[0]), float(times[-1]), inputs or {})
-    driven, control = signals(state.model.system, inputs), None
-    if feedback is not None:
-        control = Controller(feedback, state.model.system, driven, (float(times[0]), float(times[-1])))
-        driven = control.signals
-    if ends is None:
-        ends = not any(event.terminal for event in events)
+    driven, control = _driven(state, times, inputs, feedback)
     longest = min([max_step, drives.max_step, *(signal.max_step for signal in driven)])
     options = {"rtol": rtol, "atol": atol, "max_step": longest}
-    stops = default_ends(state) if ends else []
+    watched_by_default = not any(event.terminal for event in events)
+    stops = default_ends(state) if (watched_by_default if ends is None else ends) else []
     watch = [*map(watched, events), *stops]
     run = Run(state, driven, watch, times, method, options, singular == "pass", most_steps, progress, drives)
     _end_at_once(run, stops)
     return _finish(run, _go(run, trouble, control))
+
+
+def _driven(
+    state: State, times: Array, inputs: Mapping[str, Given] | None, feedback: Feedback | None
+) -> tuple[list[Signal], Controller | None]:
+    """Return the inputs over time, and the controller that they are of, if there is feedback."""
+    given = signals(state.model.system, inputs)
+    if feedback is None:
+        return given, None
+    control = Controller(feedback, state.model.system, given, (float(times[0]), float(times[-1])))
+    return control.signals, control
 
 
 def _go(run: Run, trouble: str, control: Controller | None) -> str:
