@@ -12,6 +12,7 @@ import pytest
 from singletrack import InputError, closed_form, coefficients, load_bicycle, load_rider
 from singletrack.certify import certify_design, design_problem, eigenvalue_balls
 from singletrack.certify.balls import Ball, constant_ball, precision
+from singletrack.certify.counting import alternates
 from singletrack.certify.duals import Centred, Dual
 from singletrack.certify.operations import centred_operations
 from singletrack.library import shipped
@@ -110,6 +111,25 @@ def test_what_is_said_of_intervals_holds_for_designs_inside(over):
     reached = max(w for w, _ in speeds) - min(w for w, _ in speeds)
     assert weave.width <= 1.1 * reached
     assert certificate.stable_ranges == [(each.start, each.stop) for each in certificate.ranges if each.unstable == 0]
+
+
+def test_real_roots_that_add_up_to_zero_at_rest_are_no_doubt():
+    """Between 70 and 72 kg two real roots to the right meet at rest: they are still two to the right."""
+    bicycle, rider, looked = load_bicycle("stratos"), load_rider("rider-a"), []
+    over = {"rider_mass": ("70 kg", "72 kg")}
+    certificate = certify_design(bicycle, rider, Options("leaned"), over, progress=looked.append)
+    assert certificate.status == "certified"
+    assert certificate.at_rest == (2, 2, 0, 0)
+    assert [each.unstable for each in certificate.ranges] == [2, 0, 1]
+    assert looked == sorted(looked)
+    assert looked
+
+
+@pytest.mark.parametrize(
+    ("signs", "alternate"), [((1, -1, 1), True), ((-1, 1), True), ((1, 0, 1), False), ((1, 1), False)]
+)
+def test_signs_that_alternate(signs, alternate):
+    assert alternates(signs) is alternate
 
 
 def test_too_few_boxes_leave_the_rest_undecided():

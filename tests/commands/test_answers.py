@@ -136,7 +136,7 @@ def test_a_front_is_a_table_of_designs(capsys: pytest.CaptureFixture[str]) -> No
     assert "trail (mm)" in told
     with pytest.raises(InputError, match="must be one or two"):
         run(["design", "benchmark", *VARY, *aims, "--aim", "weave"])
-    with pytest.raises(InputError, match="are for one aim"):
+    with pytest.raises(InputError, match="is for one aim"):
         run(["design", "benchmark", *VARY, *aims, "-o", "found.toml"])
 
 

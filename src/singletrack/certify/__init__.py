@@ -8,10 +8,12 @@ from singletrack.certify.asking import (
     matrices_problem,
 )
 from singletrack.certify.balls import Ball
+from singletrack.certify.certificate import MOST_BOXES
 from singletrack.certify.counting import Sides
 from singletrack.certify.record import Certificate, CertifiedCrossing, CertifiedRange, Eigenvalue
 
 __all__ = [
+    "MOST_BOXES",
     "Ball",
     "Certificate",
     "CertifiedCrossing",

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 import flint
 
-from singletrack.certify.counting import unstable_roots
+from singletrack.certify.counting import alternates, unstable_roots
 from singletrack.certify.families import Family
 from singletrack.certify.isolation import isolate
 
@@ -26,14 +26,31 @@ __all__ = ["Event", "Factor", "Outcome", "analysed"]
 #: Speeds at which roots are counted before it is given up, as parts of the range between two events.
 _PLACES = (1, 2, 3, 5, 6, 7, 9, 10, 11, 13)
 _OF = 16
+#: How often an interval is halved to see that no root is on the axis.
+_HALVINGS = 6
 
 
 @dataclass(frozen=True)
 class Factor:
-    """Polynomials in the speed whose zeros are events: of a "real" root, of a "pair", or of "both" at once."""
+    """Polynomials in the speed whose zeros are events: of a "real" root, of a "pair", or of "both" at once.
+
+    ``halves`` are the even and the odd coefficients a_k(v), over all designs. Where two roots that add up to zero are
+    on the axis, s² = z <= 0 is a root of both Σ a_2k z^k and Σ a_2k+1 z^k: not where the signs of either alternate.
+    """
 
     family: Family
     kind: str
+    halves: tuple[tuple[Family, ...], ...] = ()
+
+    def is_off_axis(self, low: Any, high: Any, halvings: int = _HALVINGS) -> bool:
+        """Tell whether roots that add up to zero between two speeds (low, high) are seen not to be on the axis."""
+        if not self.halves or not high.is_finite():
+            return False
+        if any(alternates([one.sign_over(low, high) for one in half]) for half in self.halves):
+            return True
+        middle = ((low + high) / 2).mid()
+        parts = ((low, middle), (middle, high))
+        return halvings > 0 and all(self.is_off_axis(*part, halvings - 1) for part in parts)
 
 
 @dataclass(frozen=True)
@@ -84,6 +101,7 @@ def analysed(factors: Sequence[Factor], coefficients: Sequence[Any], finest: int
         Event(interval.low, interval.high, factor.kind, interval.single)
         for factor in factors
         for interval in isolate(factor.family, finest)
+        if not factor.is_off_axis(interval.low, interval.high)
     ]
     events = _apart(sorted(found, key=cmp_to_key(_order)))
     counts, witnesses = [], []

@@ -17,7 +17,7 @@ from singletrack.parameters.exact import Exact, exact_of_double, exact_quantity,
 from singletrack.parameters.hints import unknown_parameter
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Callable, Mapping, Sequence
 
     from singletrack.certify.problems import Problem
     from singletrack.certify.record import Certificate, Eigenvalue
@@ -181,6 +181,7 @@ def certify_design(
     over: Mapping[str, Sequence[str | float]] | None = None,
     added: Mapping[str, np.ndarray] | None = None,
     most_boxes: int = MOST_BOXES,
+    progress: Callable[[int], object] | None = None,
 ) -> Certificate:
     """Return the certificate of a design, or of all designs between bounds.
 
@@ -192,9 +193,11 @@ def certify_design(
         Matrices are of shape (n, n).
     most_boxes : int
         Boxes of designs that are looked at before the rest is left undecided.
+    progress : callable, optional
+        Called with the number of boxes looked at so far.
     """
     designs = design_problem(bicycle, rider, options, over, added)
-    return certified(designs, _as_text(designs, designs.program), most_boxes)
+    return certified(designs, _as_text(designs, designs.program), most_boxes, progress)
 
 
 def _as_text(designs: TracedDesigns, program: Program) -> dict[str, str]:

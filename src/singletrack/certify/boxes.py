@@ -14,7 +14,7 @@ from singletrack.certify.families import sign
 from singletrack.certify.problems import Box
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Callable, Iterator
 
     from singletrack.certify.problems import Posed, Problem
 
@@ -110,7 +110,7 @@ def _is_open_at_infinity_alone(found: Found) -> bool:
     return not last.high.is_finite() and all(event.single for event in others) and None not in found.outcome.counts[:-1]
 
 
-def solved_box(problem: Problem, most: int) -> list[Found]:
+def solved_box(problem: Problem, most: int, progress: Callable[[int], object] | None = None) -> list[Found]:
     """Return what is proven of all designs of a problem, box by box.
 
     Parameters
@@ -119,7 +119,10 @@ def solved_box(problem: Problem, most: int) -> list[Found]:
         Some of its parameters are intervals.
     most : int
         Boxes that are looked at before it is given up.
+    progress : callable, optional
+        Called with the number of boxes looked at so far.
     """
+    tell = progress or (lambda _: None)
     whole: Box = ((Fraction(0), Fraction(1)),) * problem.dimensions
     done, open_boxes, looked = list[Found](), [_at(problem, whole, _BOX_BITS)], 1
     while open_boxes:
@@ -129,8 +132,9 @@ def solved_box(problem: Problem, most: int) -> list[Found]:
             continue
         halves = [_at(problem, half, _BOX_BITS) for half in _halves(found)]
         looked += len(halves)
+        tell(looked)
         open_boxes += halves
-    return _sharpened(problem, done, most - looked)
+    return _sharpened(problem, done, looked, most, tell)
 
 
 def _halves(found: Found) -> Iterator[Box]:
@@ -145,7 +149,9 @@ def _halves(found: Found) -> Iterator[Box]:
         yield (*found.box[:axis], part, *found.box[axis + 1 :])
 
 
-def _sharpened(problem: Problem, done: list[Found], left: int) -> list[Found]:
+def _sharpened(
+    problem: Problem, done: list[Found], looked: int, most: int, tell: Callable[[int], object]
+) -> list[Found]:
     """Return boxes with intervals of critical speeds that are not much wider than their designs need."""
     patterns = {found.outcome.pattern if found.outcome is not None else None for found in done}
     if len(patterns) > 1 or None in patterns or not all(found.is_decided for found in done):
@@ -155,11 +161,12 @@ def _sharpened(problem: Problem, done: list[Found], left: int) -> list[Found]:
     todo, done = [_tightened(corners, found) for found in done], []
     while todo:
         found = todo.pop()
-        if left <= 0 or not reached or not _exceeds(found, reached):
+        if looked >= most or not reached or not _exceeds(found, reached):
             done.append(found)
             continue
         todo += [_tightened(corners, _at(problem, half, _BOX_BITS)) for half in _halves(found)]
-        left -= 2
+        looked += 2
+        tell(looked)
     return done
 
 

@@ -16,12 +16,12 @@ from singletrack.certify.families import sign
 from singletrack.certify.record import Certificate, CertifiedCrossing, CertifiedRange, Eigenvalue
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Callable, Mapping, Sequence
 
     from singletrack.certify.analysis import Event
     from singletrack.certify.problems import Problem
 
-__all__ = ["certified", "eigenvalues_at"]
+__all__ = ["MOST_BOXES", "certified", "eigenvalues_at"]
 
 #: Boxes of designs that are looked at before the rest is left undecided.
 MOST_BOXES = 600
@@ -29,7 +29,12 @@ MOST_BOXES = 600
 Span = tuple[float, float]
 
 
-def certified(problem: Problem, parameters: Mapping[str, str], most_boxes: int = MOST_BOXES) -> Certificate:
+def certified(
+    problem: Problem,
+    parameters: Mapping[str, str],
+    most_boxes: int = MOST_BOXES,
+    progress: Callable[[int], object] | None = None,
+) -> Certificate:
     """Return the certificate of a problem.
 
     Parameters
@@ -39,8 +44,10 @@ def certified(problem: Problem, parameters: Mapping[str, str], most_boxes: int =
         What was taken as exact, for the record.
     most_boxes : int
         Boxes of designs that are looked at before the rest is left undecided.
+    progress : callable, optional
+        Called with the number of boxes looked at so far.
     """
-    boxes = solved_box(problem, most_boxes) if problem.dimensions else [solved(problem)]
+    boxes = solved_box(problem, most_boxes, progress) if problem.dimensions else [solved(problem)]
     rests = {found.at_rest for found in boxes}
     at_rest = rests.pop() if len(rests) == 1 else None
     common: dict[str, Any] = {"at_rest": at_rest, "bits": max(found.bits for found in boxes), "boxes": len(boxes)}

@@ -12,7 +12,7 @@ from singletrack.certify.families import sign
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-__all__ = ["Sides", "enclosed_roots", "sides_at_rest", "unstable_roots"]
+__all__ = ["Sides", "alternates", "enclosed_roots", "sides_at_rest", "unstable_roots"]
 
 
 class Sides(NamedTuple):
@@ -49,6 +49,17 @@ def unstable_roots(coefficients: Sequence[Any]) -> int | None:
         row = [a - ratio * b for a, b in zip(first[1:], padded, strict=False)]
         first, second = second, row or [0]
     return sum(one != other for one, other in pairwise(signs))
+
+
+def alternates(signs: Sequence[int]) -> bool:
+    """Tell whether signs alternate, none of them 0: a polynomial of such coefficients has no root z <= 0.
+
+    Parameters
+    ----------
+    signs : sequence of int, shape (N + 1,)
+        Of the coefficients, 0 for unknown.
+    """
+    return all(each * (-1) ** k == signs[0] != 0 for k, each in enumerate(signs))
 
 
 def _counted(coefficients: Sequence[Any]) -> int | None:
@@ -102,6 +113,9 @@ def sides_at_rest(coefficients: Sequence[Any]) -> Sides | None:
         return None if right is None else Sides(right, total - right - zero, zero, zero)
     squares = list(coefficients[0::2])
     zero = next(k for k, c in enumerate(squares) if not bool(c == 0))
+    if alternates([sign(c) for c in squares[zero:]]):  # double roots need not be told apart
+        right = len(squares) - 1 - zero
+        return Sides(right, right, 2 * zero, 2 * zero)
     roots = enclosed_roots(squares[zero:])
     if roots is None:
         return None

@@ -181,5 +181,7 @@ def _posed(families: Sequence[Family]) -> Posed:
     *coefficients, pairs = families
     constant, still = coefficients[0], [a(flint.arb(0)) for a in coefficients]
     always = always_of((constant.is_zero, pairs.is_zero))
-    factors = () if always else (Factor(constant.stripped(), "real"), Factor(pairs.stripped(), "pair"))
+    both = [half for half in (coefficients[0::2], coefficients[1::2]) if not any(a.is_zero for a in half)]
+    halves = tuple(tuple(a.stripped() for a in half) for half in both)  # the signs are those at v > 0
+    factors = () if always else (Factor(constant.stripped(), "real"), Factor(pairs.stripped(), "pair", halves))
     return Posed([a.middle for a in coefficients], factors, still, coefficients[-1](flint.arb(0)), always)

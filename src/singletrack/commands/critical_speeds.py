@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import dataclasses
 import importlib
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
 import typer
+from rich.progress import BarColumn, Progress, TextColumn
 
 from singletrack.commands.model import Made, model_from
 from singletrack.commands.model_options import EngineName, ModelOptions, pairs
@@ -18,7 +19,11 @@ from singletrack.linear import always_unstable
 from singletrack.model import LinearModel
 from singletrack.present.certificates import certificate_text
 from singletrack.present.tables import critical_speeds_text
+from singletrack.present.terminal import Terminal
 from singletrack.public.certifying import certifier
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
 
 __all__ = ["run"]
 
@@ -66,10 +71,26 @@ def _certificate(made: Made, options: ModelOptions, over: list[str] | None) -> A
         raise InputError("--certify: proves what the closed form says, and takes no --engine multibody")
     bounds = {name: _bounds(name, text) for name, text in pairs("--over", over).items()}
     room = certifier()
+    added = _fed_back(made.model, options)
     try:
-        return room.certify_design(made.bicycle, made.rider, options.sitting, bounds, _fed_back(made.model, options))
+        return _with_progress(
+            room.MOST_BOXES,
+            lambda tell: room.certify_design(made.bicycle, made.rider, options.sitting, bounds, added, progress=tell),
+        )
     except InputError as error:
         raise error.at("--certify") from None
+
+
+def _with_progress(most: int, work: Callable[[Callable[[int], object]], Any]) -> Any:
+    columns = (
+        TextColumn("proving"),
+        BarColumn(bar_width=24),
+        TextColumn("{task.completed} of at most {task.total} boxes"),
+    )
+    console = Terminal(stderr=True)
+    with Progress(*columns, console=console, transient=True, disable=not console.is_terminal) as bar:
+        task = bar.add_task("boxes", total=most)
+        return work(lambda looked: bar.update(task, completed=looked))
 
 
 def _bounds(name: str, text: str) -> tuple[str, str]:

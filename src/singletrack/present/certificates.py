@@ -43,7 +43,8 @@ def certificate_text(certificate: Certificate) -> str:
     else:
         on = f"{rest.axis} on the axis" + (f" ({rest.zero} of them zero)" if rest.zero else "")
         lines.append(("at rest", f"{rest.right} roots to the right, {rest.left} to the left, {on}"))
-    return "\n".join(f"{name:<16}{words}" for name, words in lines)
+    wide = max(16, *(len(name) + 2 for name, _ in lines))
+    return "\n".join(f"{name:<{wide}}{words}" for name, words in lines)
 
 
 def _crossing_words(crossing: CertifiedCrossing) -> str:
