@@ -115,7 +115,8 @@ def test_what_is_said_of_intervals_holds_for_designs_inside(over):
 
 def test_real_roots_that_add_up_to_zero_at_rest_are_no_doubt():
     """Between 70 and 72 kg two real roots to the right meet at rest: they are still two to the right."""
-    bicycle, rider, looked = load_bicycle("stratos"), load_rider("rider-a"), []
+    bicycle, rider = load_bicycle("stratos"), load_rider("rider-a")
+    looked: list[int] = []
     over = {"rider_mass": ("70 kg", "72 kg")}
     certificate = certify_design(bicycle, rider, Options("leaned"), over, progress=looked.append)
     assert certificate.status == "certified"

@@ -43,7 +43,15 @@ class Factor:
     halves: tuple[tuple[Family, ...], ...] = ()
 
     def is_off_axis(self, low: Any, high: Any, halvings: int = _HALVINGS) -> bool:
-        """Tell whether roots that add up to zero between two speeds (low, high) are seen not to be on the axis."""
+        """Tell whether roots that add up to zero between two speeds are seen not to be on the axis.
+
+        Parameters
+        ----------
+        low, high : arb
+            In m/s.
+        halvings : int
+            How often the interval may be halved.
+        """
         if not self.halves or not high.is_finite():
             return False
         if any(alternates([one.sign_over(low, high) for one in half]) for half in self.halves):
