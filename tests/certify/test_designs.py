@@ -90,7 +90,12 @@ def test_decimals_are_meant_and_not_their_doubles():
 
 
 @pytest.mark.parametrize(
-    "over", [{"trail": ("55 mm", "57 mm")}, {"trail": (0.056, 0.0565), "rider_mass": ("71 kg", "72 kg")}]
+    "over",
+    [
+        {"trail": ("55 mm", "57 mm")},
+        {"trail": (0.056, 0.0565), "rider_mass": ("71 kg", "72 kg")},
+        {"trail": ("55 mm", "57 mm"), "rider_mass": ("71.5 kg", "72.5 kg")},
+    ],
 )
 def test_what_is_said_of_intervals_holds_for_designs_inside(over):
     bicycle, rider, options = load_bicycle("stratos"), load_rider("rider-a"), Options("leaned")
