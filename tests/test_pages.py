@@ -67,7 +67,7 @@ def is_of_the_source(command: str) -> bool:
     elif found := re.search(r"(?:^|/|\s)(?:pip|python -m pip) install '?\.(?:\[(.*)\])?'?$", command):
         extras = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
         assert set((found[1] or "dev").split(",")) <= set(extras["optional-dependencies"]), command
-    return bool(found) or command == "python -m venv .venv"
+    return bool(found) or command == "python3 -m venv .venv"
 
 
 # Those of the README are run by its own test.
