@@ -8,16 +8,14 @@ from __future__ import annotations
 
 import functools
 import sys
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import pytest
 
+from calls import calls_of
 from singletrack import Bicycle, Rider, coefficients, load_bicycle, load_rider
 from singletrack.linear.quartic import solve as quartic
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
 
 SPEEDS = np.linspace(0.0, 10.0, 1001)
 
@@ -26,24 +24,6 @@ SPEEDS = np.linspace(0.0, 10.0, 1001)
 def no_jax(monkeypatch: pytest.MonkeyPatch) -> None:
     """Whether another test has loaded JAX, whose arrays are then looked for, is no matter here."""
     monkeypatch.setitem(sys.modules, "jax", None)
-
-
-def calls_of(work: Callable[[], Any]) -> int:
-    """Return the calls, of Python functions and of compiled ones, that a second run of some work makes."""
-    work()
-    count = 0
-
-    def note(_frame: Any, event: str, _argument: Any) -> None:
-        nonlocal count
-        count += event in ("call", "c_call")
-
-    before = sys.getprofile()
-    sys.setprofile(note)
-    try:
-        work()
-    finally:
-        sys.setprofile(before)
-    return count
 
 
 def given(record: Bicycle | Rider) -> dict[str, Any]:

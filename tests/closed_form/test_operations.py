@@ -7,11 +7,12 @@ from __future__ import annotations
 
 import sys
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import pytest
 
+from calls import calls_of
 from singletrack import closed_form, load_bicycle, load_rider
 from singletrack.arrays import single_thread
 from singletrack.closed_form import many
@@ -19,9 +20,6 @@ from singletrack.closed_form.generate import structures
 from singletrack.closed_form.programs import program_named
 from singletrack.linear import critical_speeds, modes
 from singletrack.linear.quartic import solve as quartic
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
 
 #: Operations of one design from its parameters to its matrices: so many passes over an array each.
 MOST = {
@@ -58,24 +56,6 @@ def test_operations_of_a_program(name: str) -> None:
 def test_operations_of_a_quartic() -> None:
     assert quartic._tape(quartic._all_at_once, 4).passes <= 344
     assert quartic._tape(quartic._from_ratios, 9).passes <= 355
-
-
-def calls_of(work: Callable[[], Any]) -> int:
-    """Return the calls of functions, Python's and compiled ones, that a second run of some work makes."""
-    work()
-    count = 0
-
-    def note(_frame: Any, event: str, _argument: Any) -> None:
-        nonlocal count
-        count += event in ("call", "c_call")
-
-    before = sys.getprofile()
-    sys.setprofile(note)
-    try:
-        work()
-    finally:
-        sys.setprofile(before)
-    return count
 
 
 def riders(count: int) -> Any:
