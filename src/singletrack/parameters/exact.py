@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from dataclasses import dataclass
 from fractions import Fraction
@@ -75,7 +76,7 @@ def exact_quantity(text: str, unit: str) -> Exact:
     Raises
     ------
     InputError
-        As :func:`~singletrack.parameters.units.parse_quantity`.
+        As :func:`~singletrack.parameters.units.parse_quantity`, and for what is not finite.
 
     Examples
     --------
@@ -85,6 +86,8 @@ def exact_quantity(text: str, unit: str) -> Exact:
     Fraction(11, 200)
     """
     value = parse_quantity(text, unit).value
+    if not math.isfinite(value):
+        raise InputError(f"{text!r} is not finite, must be a finite number", found=text, allowed="a finite number")
     number, written = written_parts(text)
     exponent = re.search(r"[eE]([+-]?\d+)$", number)
     factor = _factor(written)
