@@ -67,7 +67,7 @@ def intervals_of(over: Mapping[str, Sequence[str | float]], units: Mapping[str, 
         try:
             low, high = (exact_quantity(b if isinstance(b, str) else repr(float(b)), units[name]) for b in bounds)
         except InputError as error:
-            raise error.at(f"over {name}") from None
+            raise error.of(f"over {name}") from None
         found[name] = low, high
     return found
 
